@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_View_h
+#define freespace_View_h
+
+#include "Camera.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// The features that one cluster of images recovered, in the frame of its reference camera.
+struct View
+{
+  std::string name;      ///< of the cluster
+  std::string imageFile; ///< the reference image, relative to the scene's `images`
+  Camera camera;
+  std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
+  std::vector<Eigen::Vector2d> imagePoints; ///< where the reference image sees them, pixels
+};
+
+/// A view whose features are triangulated in the image. Between them disparity (1 / depth) is linear
+/// in the pixel, which makes each image triangle the image of one space triangle.
+struct DisparityMap : View
+{
+  std::vector<int> sourceView;               ///< per point: index of the view that supplied it
+  std::vector<std::array<int, 3>> triangles; ///< counter-clockwise in pixel coordinates (y down)
+};
+
+}
+
+#endif

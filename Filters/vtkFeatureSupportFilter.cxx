@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFeatureSupportFilter.h"
+
+#include "AlgorithmProgress.h"
+#include "FeatureSupport.h"
+#include "ViewBlocks.h"
+
+#include <vtkCellArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+vtkStandardNewMacro(vtkFeatureSupportFilter);
+
+namespace
+{
+
+// Line segments between surviving points, with their new ids.
+void CopyLines(vtkPolyData* input, const std::vector<vtkIdType>& newId, vtkPolyData* output)
+{
+  vtkNew<vtkCellArray> lines;
+  vtkCellArray* chains = input->GetLines();
+  for (vtkIdType cell = 0; cell < chains->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    chains->GetCellAtId(cell, size, ids);
+    for (vtkIdType i = 1; i < size; ++i)
+    {
+      const vtkIdType segment[2] = { newId[ids[i - 1]], newId[ids[i]] };
+      if (segment[0] >= 0 && segment[1] >= 0)
+      {
+        lines->InsertNextCell(2, segment);
+      }
+    }
+  }
+  output->SetLines(lines);
+}
+
+vtkSmartPointer<vtkPolyData> KeepSupported(
+  vtkPolyData* input, const std::vector<int>& support, int minimum)
+{
+  auto output = vtkSmartPointer<vtkPolyData>::New();
+  output->GetFieldData()->PassData(input->GetFieldData());
+  output->GetPointData()->CopyAllocate(input->GetPointData());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkIntArray> counts;
+  counts->SetName("Support");
+  std::vector<vtkIdType> newId(support.size(), -1);
+  for (std::size_t i = 0; i < support.size(); ++i)
+  {
+    if (support[i] >= minimum)
+    {
+      const vtkIdType from = static_cast<vtkIdType>(i);
+      const vtkIdType id = newId[i] = points->InsertNextPoint(input->GetPoint(from));
+      output->GetPointData()->CopyData(input->GetPointData(), from, id);
+      vertices->InsertNextCell(1, &id);
+      counts->InsertNextValue(support[i]);
+    }
+  }
+  output->SetPoints(points);
+  output->SetVerts(vertices);
+  output->GetPointData()->AddArray(counts);
+  CopyLines(input, newId, output);
+  return output;
+}
+
+}
+
+int vtkFeatureSupportFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMultiBlockDataSet* input = vtkMultiBlockDataSet::GetData(inputVector[0]);
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  freespace::FeatureSupportOptions options;
+  options.radius = this->Radius;
+  options.minimumNeighbors = this->MinimumNeighbors;
+  options.disparityTolerance = this->DisparityTolerance;
+  try
+  {
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+      progress(static_cast<double>(i) / views.size());
+      const unsigned int index = static_cast<unsigned int>(i);
+      const std::vector<int> support = freespace::CountSupport(views[i], options);
+      freespace::SetNamedBlock(output, index, views[i].name,
+        KeepSupported(vtkPolyData::SafeDownCast(input->GetBlock(index)), support,
+          this->MinimumNeighbors));
+    }
+  }
+  catch (const freespace::Aborted&)
+  {
+    output->Initialize();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+void vtkFeatureSupportFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "MinimumNeighbors: " << this->MinimumNeighbors << "\n";
+  os << indent << "DisparityTolerance: " << this->DisparityTolerance << "\n";
+}

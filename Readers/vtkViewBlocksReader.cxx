@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkViewBlocksReader.h"
+
+#include "Error.h"
+#include "ViewBlocks.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkXMLMultiBlockDataReader.h>
+
+#include <filesystem>
+
+vtkStandardNewMacro(vtkViewBlocksReader);
+
+namespace
+{
+
+// VTK's reader reports a block that it could not read through error events only.
+void CountError(vtkObject*, unsigned long, void* count, void*)
+{
+  ++*static_cast<int*>(count);
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
+{
+  if (!std::filesystem::is_regular_file(fileName))
+  {
+    throw freespace::Error("Cannot read " + fileName + ": there is no such file.");
+  }
+  int errors = 0;
+  vtkNew<vtkCallbackCommand> onError;
+  onError->SetCallback(CountError);
+  onError->SetClientData(&errors);
+  vtkNew<vtkXMLMultiBlockDataReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, onError);
+  reader->SetReaderErrorObserver(onError);
+  reader->SetParserErrorObserver(onError);
+  reader->SetFileName(fileName.c_str());
+  reader->Update();
+  vtkSmartPointer<vtkMultiBlockDataSet> blocks
+    = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (errors > 0 || !blocks || blocks->GetNumberOfBlocks() == 0)
+  {
+    throw freespace::Error("Cannot read " + fileName
+      + ": it or one of its .vtp files is missing, truncated or not a multi-block file.");
+  }
+  return blocks;
+}
+
+void CheckBlocks(vtkMultiBlockDataSet* blocks, const std::string& fileName)
+{
+  try
+  {
+    freespace::ViewsFromBlocks(blocks);
+  }
+  catch (const freespace::Error& error)
+  {
+    throw freespace::Error(fileName + ": " + error.what());
+  }
+}
+
+}
+
+vtkViewBlocksReader::vtkViewBlocksReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+int vtkViewBlocksReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  try
+  {
+    const auto blocks = ReadWhole(this->FileName);
+    CheckBlocks(blocks, this->FileName);
+    output->ShallowCopy(blocks);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+void vtkViewBlocksReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}

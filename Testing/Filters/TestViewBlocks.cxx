@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewBlocks.h"
+
+#include "Error.h"
+#include "vtkFeatureSupportFilter.h"
+#include "vtkViewBlocksReader.h"
+#include "vtkViewBlocksWriter.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace freespace;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+DisparityMap MakeMap(int index)
+{
+  DisparityMap map;
+  map.name = "map" + std::to_string(index);
+  map.imageFile = "c.jpg";
+  map.camera.K << 100, 0, 50.5, 0, 110, 40, 0, 0, 1;
+  map.camera.R = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  map.camera.t = { 0.1, 0.2, 0.3 * index };
+  map.camera.width = 100;
+  map.camera.height = 80;
+  for (const Eigen::Vector2d& pixel :
+    { Eigen::Vector2d(10, 10), Eigen::Vector2d(60, 12), Eigen::Vector2d(30, 70) })
+  {
+    map.points.push_back(map.camera.Unproject(pixel, 2.0));
+    map.imagePoints.push_back(pixel);
+  }
+  map.sourceView = { index, index, 5 };
+  map.triangles = { { 0, 1, 2 } };
+  return map;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks()
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (int i = 0; i < 2; ++i)
+  {
+    SetNamedBlock(blocks, i, MakeMap(i).name, BlockFromMap(MakeMap(i)));
+  }
+  return blocks;
+}
+
+std::string TemporaryFolder()
+{
+  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
+  return mkdtemp(pattern.data());
+}
+
+void ExpectSame(const DisparityMap& a, const DisparityMap& b)
+{
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.imageFile, b.imageFile);
+  EXPECT_EQ(a.camera.K, b.camera.K);
+  EXPECT_EQ(a.camera.R, b.camera.R);
+  EXPECT_EQ(a.camera.t, b.camera.t);
+  EXPECT_EQ(a.camera.width, b.camera.width);
+  EXPECT_EQ(a.camera.height, b.camera.height);
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.imagePoints, b.imagePoints);
+  EXPECT_EQ(a.sourceView, b.sourceView);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+}
+
+TEST(ViewBlocks, RoundTripInMemory)
+{
+  const std::vector<DisparityMap> maps = MapsFromBlocks(MakeBlocks());
+  ASSERT_EQ(maps.size(), 2u);
+  ExpectSame(maps[0], MakeMap(0));
+  ExpectSame(maps[1], MakeMap(1));
+}
+
+TEST(ViewBlocks, RoundTripOnDisk)
+{
+  const std::string folder = TemporaryFolder();
+  const std::string file = folder + "/maps.vtm";
+  for (int pass = 0; pass < 2; ++pass) // the second replaces the first
+  {
+    vtkNew<vtkViewBlocksWriter> writer;
+    writer->SetInputDataObject(MakeBlocks());
+    writer->SetFileName(file);
+    ASSERT_EQ(writer->Write(), 1);
+  }
+  vtkNew<vtkViewBlocksReader> reader;
+  reader->SetFileName(file);
+  reader->Update();
+  const std::vector<DisparityMap> maps = MapsFromBlocks(reader->GetOutput());
+  ASSERT_EQ(maps.size(), 2u);
+  ExpectSame(maps[1], MakeMap(1));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2)
+    << "something half-written was left behind";
+  fs::remove_all(folder);
+}
+
+TEST(ViewBlocks, UnwritableFolderIsAnError)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  vtkNew<vtkViewBlocksWriter> writer;
+  writer->SetInputDataObject(MakeBlocks());
+  writer->SetFileName("/nowhere/at/all/maps.vtm");
+  EXPECT_EQ(writer->Write(), 0);
+}
+
+TEST(ViewBlocks, TruncatedFileIsAnError)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  const std::string folder = TemporaryFolder();
+  const std::string file = folder + "/maps.vtm";
+  vtkNew<vtkViewBlocksWriter> writer;
+  writer->SetInputDataObject(MakeBlocks());
+  writer->SetFileName(file);
+  ASSERT_EQ(writer->Write(), 1);
+  const std::string block = folder + "/maps/maps_1.vtp";
+  ASSERT_TRUE(fs::exists(block));
+  fs::resize_file(block, fs::file_size(block) / 2);
+  vtkNew<vtkViewBlocksReader> reader;
+  reader->SetFileName(file);
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+  fs::remove_all(folder);
+}
+
+TEST(ViewBlocks, MissingArrayNamesTheView)
+{
+  auto blocks = MakeBlocks();
+  vtkPolyData::SafeDownCast(blocks->GetBlock(1))->GetPointData()->RemoveArray("ImagePoint");
+  try
+  {
+    ViewsFromBlocks(blocks);
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("map1"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("ImagePoint"), std::string::npos);
+  }
+}

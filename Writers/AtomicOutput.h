@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_AtomicOutput_h
+#define freespace_AtomicOutput_h
+
+#include <filesystem>
+#include <string>
+
+namespace freespace
+{
+
+/// A folder beside a target in which its files are made, so that the target is either the old one or
+/// the whole new one. What was not committed is removed by the destructor.
+class AtomicOutput
+{
+public:
+  /// Throws Error naming the target when its folder cannot be written.
+  explicit AtomicOutput(const std::string& target);
+  ~AtomicOutput();
+  AtomicOutput(const AtomicOutput&) = delete;
+  AtomicOutput& operator=(const AtomicOutput&) = delete;
+
+  /// Where to write the target; other files may be written beside it.
+  std::string Path() const { return (this->Folder / this->Target.filename()).string(); }
+
+  /// Moves all that was written into the target's folder. Throws Error when that fails.
+  void Commit();
+
+private:
+  std::filesystem::path Target;
+  std::filesystem::path Folder;
+};
+
+}
+
+#endif

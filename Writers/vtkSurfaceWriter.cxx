@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfaceWriter.h"
+
+#include "AtomicOutput.h"
+#include "Error.h"
+
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkOBJWriter.h>
+#include <vtkObjectFactory.h>
+#include <vtkPLYWriter.h>
+#include <vtkPolyData.h>
+#include <vtkSTLWriter.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+vtkStandardNewMacro(vtkSurfaceWriter);
+
+namespace
+{
+
+std::string LowerCaseEnding(const std::string& fileName)
+{
+  std::string ending = std::filesystem::path(fileName).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+template <typename Writer>
+void WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName)
+{
+  writer->SetInputDataObject(surface);
+  writer->SetFileName(fileName.c_str());
+  if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+  }
+}
+
+void WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName)
+{
+  if (ending == ".ply")
+  {
+    vtkNew<vtkPLYWriter> writer;
+    writer->SetFileTypeToBinary();
+    WriteWith(writer.Get(), surface, fileName);
+  }
+  else if (ending == ".stl")
+  {
+    vtkNew<vtkSTLWriter> writer;
+    writer->SetFileTypeToBinary();
+    WriteWith(writer.Get(), surface, fileName);
+  }
+  else if (ending == ".obj")
+  {
+    vtkNew<vtkOBJWriter> writer;
+    WriteWith(writer.Get(), surface, fileName);
+  }
+  else
+  {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    WriteWith(writer.Get(), surface, fileName);
+  }
+}
+
+}
+
+bool vtkSurfaceWriter::CanWriteFile(const std::string& fileName)
+{
+  const std::string ending = LowerCaseEnding(fileName);
+  return ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".vtp";
+}
+
+int vtkSurfaceWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+void vtkSurfaceWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  auto* surface = vtkPolyData::SafeDownCast(this->GetInput());
+  try
+  {
+    if (!CanWriteFile(this->FileName))
+    {
+      throw freespace::Error("Cannot write '" + this->FileName
+        + "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
+    }
+    freespace::AtomicOutput target(this->FileName);
+    WriteByEnding(surface, LowerCaseEnding(this->FileName), target.Path());
+    target.Commit();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkViewBlocksWriter.h"
+
+#include "AtomicOutput.h"
+#include "Error.h"
+
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkXMLMultiBlockDataWriter.h>
+
+#include <filesystem>
+
+vtkStandardNewMacro(vtkViewBlocksWriter);
+
+int vtkViewBlocksWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  return 1;
+}
+
+void vtkViewBlocksWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  try
+  {
+    if (std::filesystem::path(this->FileName).extension() != ".vtm")
+    {
+      throw freespace::Error(
+        "Cannot write '" + this->FileName + "': the name of a file of views ends in .vtm.");
+    }
+    freespace::AtomicOutput target(this->FileName);
+    vtkNew<vtkXMLMultiBlockDataWriter> writer;
+    writer->SetInputDataObject(this->GetInput());
+    writer->SetFileName(target.Path().c_str());
+    if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+    {
+      throw freespace::Error("Cannot write " + this->FileName + ": the disk is full or failed.");
+    }
+    target.Commit();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkViewBlocksWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}

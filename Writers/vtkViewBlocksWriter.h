@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkViewBlocksWriter
+ * @brief write features or disparity maps as a .vtm file
+ *
+ * Writes VTK's XML multi-block format: NAME.vtm and a folder NAME beside it with one .vtp per view.
+ * Both are made in a folder of their own and then renamed, the .vtm last. A folder that cannot be
+ * written is an error that names the file; Write() then returns 0.
+ */
+#ifndef vtkViewBlocksWriter_h
+#define vtkViewBlocksWriter_h
+
+#include "vtkFreespaceWritersModule.h" // for the export macro
+#include "vtkWriter.h"
+
+#include <string> // for FileName
+
+class VTKFREESPACEWRITERS_EXPORT vtkViewBlocksWriter : public vtkWriter
+{
+public:
+  static vtkViewBlocksWriter* New();
+  vtkTypeMacro(vtkViewBlocksWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to write, ending in .vtm.
+   */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+protected:
+  vtkViewBlocksWriter() = default;
+  ~vtkViewBlocksWriter() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  void WriteData() override;
+
+  std::string FileName;
+
+private:
+  vtkViewBlocksWriter(const vtkViewBlocksWriter&) = delete;
+  void operator=(const vtkViewBlocksWriter&) = delete;
+};
+
+#endif
