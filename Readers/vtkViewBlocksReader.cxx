@@ -9,9 +9,14 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkXMLDataElement.h>
 #include <vtkXMLMultiBlockDataReader.h>
+#include <vtkXMLUtilities.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <vector>
 
 vtkStandardNewMacro(vtkViewBlocksReader);
 
@@ -24,12 +29,64 @@ void CountError(vtkObject*, unsigned long, void* count, void*)
   ++*static_cast<int*>(count);
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
+// A truncated file may still parse, and VTK's reader is silent where warnings are switched off: look
+// for the end of the file.
+bool IsWhole(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  const std::streamoff tail = std::min<std::streamoff>(size, 32);
+  std::string end(static_cast<std::size_t>(tail), '\0');
+  file.seekg(size - tail);
+  file.read(&end[0], tail);
+  return file && end.find("</VTKFile>") != std::string::npos;
+}
+
+// The files of the blocks that a .vtm names, relative to it.
+void CollectBlockFiles(vtkXMLDataElement* element, std::vector<std::string>& files)
+{
+  for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  {
+    vtkXMLDataElement* nested = element->GetNestedElement(i);
+    if (const char* file = nested->GetAttribute("file"))
+    {
+      files.push_back(file);
+    }
+    CollectBlockFiles(nested, files);
+  }
+}
+
+void CheckFilesAreWhole(const std::string& fileName)
 {
   if (!std::filesystem::is_regular_file(fileName))
   {
     throw freespace::Error("Cannot read " + fileName + ": there is no such file.");
   }
+  vtkSmartPointer<vtkXMLDataElement> root;
+  if (IsWhole(fileName))
+  {
+    root.TakeReference(vtkXMLUtilities::ReadElementFromFile(fileName.c_str()));
+  }
+  if (!root)
+  {
+    throw freespace::Error("Cannot read " + fileName + ": it is truncated or not a .vtm file.");
+  }
+  std::vector<std::string> files;
+  CollectBlockFiles(root, files);
+  for (const std::string& file : files)
+  {
+    const auto path = std::filesystem::path(fileName).parent_path() / file;
+    if (!IsWhole(path.string()))
+    {
+      throw freespace::Error("Cannot read " + fileName + ": its file " + file
+        + " is missing or truncated.");
+    }
+  }
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
+{
+  CheckFilesAreWhole(fileName);
   int errors = 0;
   vtkNew<vtkCallbackCommand> onError;
   onError->SetCallback(CountError);
@@ -44,8 +101,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
     = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (errors > 0 || !blocks || blocks->GetNumberOfBlocks() == 0)
   {
-    throw freespace::Error("Cannot read " + fileName
-      + ": it or one of its .vtp files is missing, truncated or not a multi-block file.");
+    throw freespace::Error(
+      "Cannot read " + fileName + ": it or one of its .vtp files is not what VTK's writers make.");
   }
   return blocks;
 }
