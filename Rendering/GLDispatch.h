@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_GLDispatch_h
+#define freespace_GLDispatch_h
+
+namespace freespace
+{
+
+/// Sends this thread's calls of libGL's and libOpenGL's functions (glClear and so on) to libOSMesa.
+///
+/// They are stubs of GLVND, which looks the function up in a table that belongs to the thread and
+/// that glXMakeCurrent or eglMakeCurrent would have set. OSMesa knows nothing of GLVND, so it is
+/// done here. Returns false when the GLVND of this machine is of another binary interface.
+bool DispatchToOSMesa();
+
+/// Whether this thread's calls go to libOSMesa.
+bool DispatchesToOSMesa();
+
+/// Undoes DispatchToOSMesa, so that GLX or EGL can make a context of theirs current in this thread.
+void StopDispatch();
+
+}
+
+#endif

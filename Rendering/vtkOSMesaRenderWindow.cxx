@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOSMesaRenderWindow.h"
+
+#include "GLDispatch.h"
+
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkObjectFactory.h>
+
+#include "vtk_glew.h"
+// glew takes away the macro that osmesa.h needs.
+#ifndef GLAPI
+#define GLAPI extern
+#endif
+#include <GL/osmesa.h>
+
+#include <algorithm>
+#include <vector>
+
+vtkStandardNewMacro(vtkOSMesaRenderWindow);
+
+struct vtkOSMesaRenderWindow::InternalState
+{
+  OSMesaContext context = nullptr;
+  std::vector<unsigned char> pixels; // the default framebuffer
+  int width = 0;                     // of pixels
+  int height = 0;
+  bool failed = false; // told once
+};
+
+namespace
+{
+
+// VTK asks for 3.2 at least; Mesa gives the newest core context that it has.
+OSMesaContext CreateContext()
+{
+  const int attributes[] = { OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_STENCIL_BITS,
+    8, OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
+    OSMESA_CONTEXT_MINOR_VERSION, 2, 0 };
+  return OSMesaCreateContextAttribs(attributes, nullptr);
+}
+
+}
+
+vtkOSMesaRenderWindow::vtkOSMesaRenderWindow()
+  : Internals(new InternalState)
+{
+  this->Mapped = 1;
+  this->SetOffScreenRendering(1);
+  this->SetFrameBlitModeToNoBlit(); // pixels are read from VTK's own framebuffers
+  this->SetScreenSize(16384, 16384);
+  this->Size[0] = this->Size[1] = 300; // as VTK's other windows
+}
+
+vtkOSMesaRenderWindow::~vtkOSMesaRenderWindow()
+{
+  this->Finalize();
+  this->ReadyForRendering = false; // for the superclass, which finalizes again
+}
+
+void vtkOSMesaRenderWindow::Initialize()
+{
+  if (!this->Initialized)
+  {
+    this->OpenGLInit();
+  }
+}
+
+void vtkOSMesaRenderWindow::Finalize()
+{
+  InternalState& state = *this->Internals;
+  if (!state.context)
+  {
+    return;
+  }
+  this->MakeCurrent();
+  if (this->Initialized)
+  {
+    this->Superclass::Finalize();
+  }
+  this->ReleaseCurrent();
+  OSMesaDestroyContext(state.context);
+  state = InternalState();
+  this->Initialized = false;
+  this->GlewInitValid = false;
+}
+
+void vtkOSMesaRenderWindow::MakeCurrent()
+{
+  InternalState& state = *this->Internals;
+  if (!state.context && !state.failed)
+  {
+    state.context = CreateContext();
+    state.failed = !state.context;
+    if (state.failed)
+    {
+      vtkErrorMacro("libOSMesa gave no OpenGL 3.2 context.");
+    }
+  }
+  const int width = std::max(this->Size[0], 1);
+  const int height = std::max(this->Size[1], 1);
+  const bool fits = width == state.width && height == state.height;
+  if (!state.context || (fits && this->IsCurrent()))
+  {
+    return;
+  }
+  if (!fits)
+  {
+    state.pixels.resize(std::size_t(4) * width * height);
+    state.width = width;
+    state.height = height;
+  }
+  if (!OSMesaMakeCurrent(state.context, state.pixels.data(), GL_UNSIGNED_BYTE, width, height))
+  {
+    vtkErrorMacro("libOSMesa cannot render to " << width << "x" << height << " pixels.");
+  }
+  else if (!freespace::DispatchToOSMesa())
+  {
+    vtkErrorMacro("This machine's libGLdispatch is of an unknown binary interface.");
+    this->ReleaseCurrent();
+  }
+}
+
+bool vtkOSMesaRenderWindow::IsCurrent()
+{
+  return this->Internals->context && OSMesaGetCurrentContext() == this->Internals->context &&
+    freespace::DispatchesToOSMesa();
+}
+
+void vtkOSMesaRenderWindow::ReleaseCurrent()
+{
+  if (this->Internals->context && OSMesaGetCurrentContext() == this->Internals->context)
+  {
+    OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    freespace::StopDispatch();
+  }
+}
+
+int vtkOSMesaRenderWindow::SupportsOpenGL()
+{
+  this->Initialize();
+  return this->Initialized ? 1 : 0;
+}
+
+vtkTypeBool vtkOSMesaRenderWindow::IsDirect()
+{
+  return 0;
+}
+
+void* vtkOSMesaRenderWindow::GetGenericContext()
+{
+  return this->Internals->context;
+}
+
+vtkRenderWindowInteractor* vtkOSMesaRenderWindow::MakeRenderWindowInteractor()
+{
+  this->Interactor = vtkGenericRenderWindowInteractor::New();
+  this->Interactor->SetRenderWindow(this);
+  return this->Interactor;
+}
+
+void vtkOSMesaRenderWindow::OpenGLInit()
+{
+  // The superclass calls OpenGL before it makes the context current.
+  this->MakeCurrent();
+  this->OpenGLInitContext();
+  if (this->Initialized)
+  {
+    this->Superclass::OpenGLInit();
+  }
+}
+
+void vtkOSMesaRenderWindow::OpenGLInitContext()
+{
+  this->ContextCreationTime.Modified();
+  if (this->Initialized || !this->IsCurrent())
+  {
+    return;
+  }
+  // glew has loaded all functions of OpenGL when it goes on to GLX and misses the X server.
+  const GLenum result = glewInit();
+#ifdef GLEW_ERROR_NO_GLX_DISPLAY
+  this->GlewInitValid = result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY;
+#else
+  this->GlewInitValid = result == GLEW_OK;
+#endif
+  if (!this->GlewInitValid || !GLEW_VERSION_3_2)
+  {
+    vtkErrorMacro("OpenGL 3.2 could not be loaded from libOSMesa: "
+      << reinterpret_cast<const char*>(glewGetErrorString(result)));
+    return;
+  }
+  this->Initialized = true;
+}
+
+void vtkOSMesaRenderWindow::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Context: " << this->Internals->context << "\n";
+  os << indent << "Buffer: " << this->Internals->width << "x" << this->Internals->height << "\n";
+}
