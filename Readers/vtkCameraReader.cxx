@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkCameraReader.h"
+
+#include "ColmapModel.h"
+#include "Error.h"
+#include "Scene.h"
+#include "ViewBlocks.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+#include <filesystem>
+
+vtkStandardNewMacro(vtkCameraReader);
+
+namespace
+{
+
+std::vector<freespace::CalibratedImage> ReadImages(const std::string& fileName)
+{
+  if (std::filesystem::is_directory(fileName))
+  {
+    return freespace::CalibratedImages(freespace::ReadColmapModel(fileName));
+  }
+  return freespace::ReadSceneImages(freespace::ReadScene(fileName));
+}
+
+std::string WithoutEnding(const std::string& image)
+{
+  return std::filesystem::path(image).replace_extension().string();
+}
+
+}
+
+vtkCameraReader::vtkCameraReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+int vtkCameraReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  try
+  {
+    unsigned int index = 0;
+    for (const freespace::CalibratedImage& image : ReadImages(this->FileName))
+    {
+      freespace::View view;
+      view.name = view.imageFile = image.file;
+      view.camera = image.camera;
+      freespace::SetNamedBlock(output, index++, view.name, freespace::BlockFromView(view));
+    }
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+vtkPolyData* vtkCameraReader::GetView(const std::string& image)
+{
+  vtkMultiBlockDataSet* output = this->GetOutput();
+  vtkPolyData* alike = nullptr;
+  int count = 0;
+  for (unsigned int i = 0; i < output->GetNumberOfBlocks(); ++i)
+  {
+    const std::string name = freespace::BlockName(output, i);
+    auto* block = vtkPolyData::SafeDownCast(output->GetBlock(i));
+    if (name == image)
+    {
+      return block;
+    }
+    if (WithoutEnding(name) == image)
+    {
+      alike = block;
+      ++count;
+    }
+  }
+  return count == 1 ? alike : nullptr;
+}
+
+void vtkCameraReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}

@@ -1,0 +1,13 @@
+# The mathematics is plain C++: no file of a Core folder includes a VTK header.
+file(GLOB_RECURSE files "${SOURCE}/*/Core/*.h" "${SOURCE}/*/Core/*.cxx")
+list(FILTER files EXCLUDE REGEX "/build[^/]*/")
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "No core files under ${SOURCE}.")
+endif()
+foreach(file IN LISTS files)
+  file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]vtk")
+  if(lines)
+    message(SEND_ERROR "${file} includes VTK: ${lines}")
+  endif()
+endforeach()

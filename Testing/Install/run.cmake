@@ -1,0 +1,25 @@
+# Installs the build into an empty folder, builds a separate project against it, runs that project and
+# the installed program, and imports the installed package in fresh Python processes.
+# cmake -DBUILD=... -DSOURCE=... -DPREFIX=... -DPYTHON=... -DPYTHON_DIR=... -P run.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\nended with ${result}:\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE "${PREFIX}")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}/usr")
+run("${CMAKE_COMMAND}" -S "${SOURCE}/consumer" -B "${PREFIX}/consumer" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${PREFIX}/usr" -DCMAKE_BUILD_TYPE=Release)
+run("${CMAKE_COMMAND}" --build "${PREFIX}/consumer")
+run("${PREFIX}/consumer/consumer")
+if(EXISTS "${PREFIX}/usr/bin/freespace")
+  run("${PREFIX}/usr/bin/freespace" --version)
+endif()
+if(PYTHON)
+  foreach(module IN ITEMS freespace freespace.vtkFreespaceFilters freespace.vtkFreespaceReaders
+      freespace.vtkFreespaceWriters freespace.vtkFreespaceRendering)
+    run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/usr/${PYTHON_DIR}" "${PYTHON}" -c "import ${module}")
+  endforeach()
+endif()

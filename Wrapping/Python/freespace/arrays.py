@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Views and surfaces as numpy arrays, and views from numpy arrays."""
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData
+
+
+def view_arrays(block):
+    """The arrays of one view as a dict.
+
+    points (n, 3) in the world, image_points (n, 2) in pixels, triangles (m, 3), K (3, 3),
+    cam_from_world (3, 4), size (width, height), and every further point data array by its name.
+    """
+    field, point_data = block.GetFieldData(), block.GetPointData()
+    arrays = {point_data.GetArrayName(i): vtk_to_numpy(point_data.GetArray(i))
+              for i in range(point_data.GetNumberOfArrays())}
+    arrays['image_points'] = arrays.pop('ImagePoint', np.zeros((0, 2)))
+    arrays['points'] = vtk_to_numpy(block.GetPoints().GetData()) if block.GetPoints() else np.zeros((0, 3))
+    arrays['triangles'] = _triangles(block)
+    arrays['K'] = vtk_to_numpy(field.GetArray('CameraIntrinsics')).reshape(3, 3)
+    arrays['cam_from_world'] = vtk_to_numpy(field.GetArray('CameraFromWorld')).reshape(3, 4)
+    arrays['size'] = tuple(int(x) for x in vtk_to_numpy(field.GetArray('ImageSize')).ravel())
+    return arrays
+
+
+def views(blocks):
+    """All views of a multi-block data set: a dict of name to view_arrays."""
+    return {blocks.GetMetaData(i).Get(vtkCompositeDataSet.NAME()): view_arrays(blocks.GetBlock(i))
+            for i in range(blocks.GetNumberOfBlocks())}
+
+
+def make_view(points, image_points, K, cam_from_world, size, image_file=''):
+    """A view's block from arrays of the shapes that view_arrays returns."""
+    points = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
+    image_points = np.ascontiguousarray(image_points, np.float64).reshape(-1, 2)
+    if len(points) != len(image_points):
+        raise ValueError(f'{len(points)} points but {len(image_points)} image points')
+    block = vtkPolyData()
+    block.SetPoints(_points(points))
+    n = len(points)
+    vertices = vtkCellArray()
+    vertices.SetData(_ids(np.arange(n + 1)), _ids(np.arange(n)))
+    block.SetVerts(vertices)
+    block.GetPointData().AddArray(_named(image_points, 'ImagePoint'))
+    field = block.GetFieldData()
+    field.AddArray(_named(np.asarray(K, float).reshape(1, 9), 'CameraIntrinsics'))
+    field.AddArray(_named(np.asarray(cam_from_world, float).reshape(1, 12), 'CameraFromWorld'))
+    field.AddArray(_named(np.asarray(size, np.int32).reshape(1, 2), 'ImageSize'))
+    file = vtkStringArray()
+    file.SetName('ImageFile')
+    file.InsertNextValue(image_file)
+    field.AddArray(file)
+    return block
+
+
+def make_views(blocks):
+    """A multi-block data set from a dict of name to block."""
+    data = vtkMultiBlockDataSet()
+    for i, (name, block) in enumerate(blocks.items()):
+        data.SetBlock(i, block)
+        data.GetMetaData(i).Set(vtkCompositeDataSet.NAME(), name)
+    return data
+
+
+def surface_arrays(surface):
+    """Vertices (n, 3) and triangles (m, 3) of a surface."""
+    if surface.GetNumberOfPoints() == 0:
+        return np.zeros((0, 3)), np.zeros((0, 3), int)
+    return vtk_to_numpy(surface.GetPoints().GetData()), _triangles(surface)
+
+
+def _triangles(poly_data):
+    cells = poly_data.GetPolys()
+    if cells.GetNumberOfCells() == 0:
+        return np.zeros((0, 3), int)
+    return vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
+
+
+def _named(array, name):
+    data = numpy_to_vtk(np.ascontiguousarray(array), deep=True)
+    data.SetName(name)
+    return data
+
+
+def _ids(array):
+    return numpy_to_vtk(np.ascontiguousarray(array, np.int64), deep=True)
+
+
+def _points(array):
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(array, deep=True))
+    return points
