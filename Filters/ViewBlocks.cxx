@@ -15,6 +15,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 namespace freespace
 {
@@ -75,6 +76,21 @@ vtkSmartPointer<vtkPolyData> BlockWithPoints(const View& view)
   block->GetPointData()->AddArray(imagePoints);
   AddCamera(block, view);
   return block;
+}
+
+template <typename Array, typename Value, typename SetTuple>
+void AddPointArray(vtkPolyData* block, const char* name, int components,
+  const std::vector<Value>& values, SetTuple&& setTuple)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    setTuple(array, static_cast<vtkIdType>(i), values[i]);
+  }
+  block->GetPointData()->AddArray(array);
 }
 
 vtkDataArray* RequiredArray(
@@ -191,6 +207,34 @@ vtkSmartPointer<vtkPolyData> BlockFromView(const View& view)
     vertices->InsertNextCell(1, &i);
   }
   block->SetVerts(vertices);
+  return block;
+}
+
+vtkSmartPointer<vtkPolyData> BlockFromEdgeView(const EdgeView& view)
+{
+  auto block = BlockFromView(view);
+  AddPointArray<vtkUnsignedCharArray>(block, "RGB", 3, view.colors,
+    [](vtkUnsignedCharArray* array, vtkIdType i, const std::array<std::uint8_t, 3>& color) {
+      array->SetTypedTuple(i, color.data());
+    });
+  AddPointArray<vtkDoubleArray>(block, "EdgeDirection", 3, view.edgeDirections,
+    [](vtkDoubleArray* array, vtkIdType i, const Eigen::Vector3d& direction) {
+      array->SetTypedTuple(i, direction.data());
+    });
+  AddPointArray<vtkDoubleArray>(block, "MatchingCost", 1, view.matchingCosts,
+    [](vtkDoubleArray* array, vtkIdType i, double cost) { array->SetValue(i, cost); });
+  AddPointArray<vtkIntArray>(block, "ChainId", 1, view.chainIds,
+    [](vtkIntArray* array, vtkIdType i, int id) { array->SetValue(i, id); });
+  vtkNew<vtkCellArray> lines;
+  for (const std::vector<int>& chain : view.chains)
+  {
+    lines->InsertNextCell(static_cast<int>(chain.size()));
+    for (int point : chain)
+    {
+      lines->InsertCellPoint(point);
+    }
+  }
+  block->SetLines(lines);
   return block;
 }
 

@@ -21,6 +21,10 @@ namespace freespace
 /// | Points    |                  | double     |
 /// | PointData | ImagePoint       | double x2  |
 /// | PointData | SourceView       | int (maps) |
+/// | PointData | RGB              | unsigned char x3 (edge stereo) |
+/// | PointData | EdgeDirection    | double x3 (edge stereo)        |
+/// | PointData | MatchingCost     | double (edge stereo)           |
+/// | PointData | ChainId          | int (edge stereo)              |
 /// | FieldData | CameraIntrinsics | double x9  |
 /// | FieldData | CameraFromWorld  | double x12 |
 /// | FieldData | ImageSize        | int x2     |
@@ -28,6 +32,9 @@ namespace freespace
 
 /// The block of a view, with a vertex cell for each feature so that it can be rendered.
 VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromView(const View& view);
+
+/// The same with the arrays of edge stereo, the chains as polylines.
+VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromEdgeView(const EdgeView& view);
 
 /// The block of a disparity map, with its triangles.
 VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromMap(const DisparityMap& map);

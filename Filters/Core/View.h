@@ -5,6 +5,7 @@
 #include "Camera.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct View
   Camera camera;
   std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
   std::vector<Eigen::Vector2d> imagePoints; ///< where the reference image sees them, pixels
+};
+
+/// What edge stereo knows about each feature of a view beside its place.
+struct EdgeView : View
+{
+  std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue in the reference image
+  std::vector<Eigen::Vector3d> edgeDirections;     ///< of the edge in the world, unit length
+  std::vector<double> matchingCosts;               ///< 0 (perfect) to 1
+  std::vector<int> chainIds;                       ///< index into chains
+  std::vector<std::vector<int>> chains; ///< features that follow each other along an edge
 };
 
 /// A view whose features are triangulated in the image. Between them disparity (1 / depth) is linear

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkEdgeStereoReader
+ * @brief features of calibrated photographs by trinocular edge stereo
+ *
+ * Reads a scene.json, finds the edges of its images with sub-pixel precision, matches them over
+ * each cluster of images and gives the features that the cluster's reference image shows: section 3
+ * of the paper. Each feature is an edge token that was seen in three images at least; its depth is
+ * from all of them together, its position in the reference image (ImagePoint) and its world
+ * position lie on one ray. An edge nearly parallel to a baseline cannot be matched along it,
+ * therefore clusters have best one horizontal and one vertical triplet. A silhouette is matched by
+ * the colours of the object in front, whatever lies behind it.
+ *
+ * The depths that are searched are those between MinimumDepth and MaximumDepth that the cameras of
+ * the triplets see in common. Lens distortion is removed from the edges' positions.
+ *
+ * Output: a vtkMultiBlockDataSet, one vtkPolyData for each cluster and named after it. Points are
+ * the features in world coordinates; each is a vertex cell, each chain of features along an edge is
+ * a polyline.
+ *
+ * | where     | name             | type             | meaning |
+ * |-----------|------------------|------------------|------------------------------------------------|
+ * | PointData | ImagePoint       | double x2        | where the reference sees it, pixels | |
+ * PointData | RGB              | unsigned char x3 | its colour in the reference image | | PointData
+ * | EdgeDirection    | double x3        | of the edge in the world, unit length          | |
+ * PointData | MatchingCost     | double           | 0 (perfect) to 1 | | PointData | ChainId | int
+ * | number of its polyline                         | | FieldData | CameraIntrinsics | double x9 | K
+ * of the reference, row-major                  | | FieldData | CameraFromWorld  | double x12 | [R
+ * t], row-major                               | | FieldData | ImageSize        | int x2           |
+ * width, height                                  | | FieldData | ImageFile        | string | the
+ * reference image, relative to the images    |
+ *
+ * Clusters run in parallel through vtkSMPTools, with the same result for any number of threads;
+ * only the images of the clusters in work are in memory.
+ *
+ * A file that is missing, broken or does not fit, a triplet without overlap or a cluster with fewer
+ * than three features is an error that names the file or cluster; the output is then empty. After
+ * an abort it is empty, too. The reader runs again when the scene's file has changed on disk, but
+ * does not watch the images and the camera model.
+ */
+#ifndef vtkEdgeStereoReader_h
+#define vtkEdgeStereoReader_h
+
+#include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkMultiBlockDataSetAlgorithm.h"
+
+#include <string> // for FileName
+
+class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
+{
+public:
+  static vtkEdgeStereoReader* New();
+  vtkTypeMacro(vtkEdgeStereoReader, vtkMultiBlockDataSetAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The scene.json to read.
+   */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+  ///@{
+  /**
+   * The depths to search in front of each reference camera, in the unit of the camera model. 0
+   * stands for no limit but the cameras' common volume. Defaults 0 and 0.
+   */
+  vtkSetMacro(MinimumDepth, double);
+  vtkGetMacro(MinimumDepth, double);
+  vtkSetMacro(MaximumDepth, double);
+  vtkGetMacro(MaximumDepth, double);
+  ///@}
+
+  ///@{
+  /**
+   * Sigma of the Gaussian under which edges are found, pixels. Default 1.
+   */
+  vtkSetMacro(Smoothing, double);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+
+  ///@{
+  /**
+   * The least slope of an edge, grey levels per pixel. Default 1.8.
+   */
+  vtkSetMacro(LowContrast, double);
+  vtkGetMacro(LowContrast, double);
+  ///@}
+
+  ///@{
+  /**
+   * The slope that a chain of edge tokens must reach somewhere, grey levels per pixel. Default 4.5.
+   */
+  vtkSetMacro(HighContrast, double);
+  vtkGetMacro(HighContrast, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far an edge may lie, across it, from where two other images predict it, pixels. Default
+   * 0.5.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The least angle between an edge and the epipolar line for a match, degrees. Default 12.
+   */
+  vtkSetMacro(MinimumAngle, double);
+  vtkGetMacro(MinimumAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * The greatest mean difference of the colours on an edge's better side, grey levels. Default 30.
+   */
+  vtkSetMacro(ColorTolerance, double);
+  vtkGetMacro(ColorTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many tokens of a chain must match without a break. Default 6.
+   */
+  vtkSetMacro(MinimumRun, int);
+  vtkGetMacro(MinimumRun, int);
+  ///@}
+
+  /**
+   * Later than the reader's own time when the scene's file is younger than it.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkEdgeStereoReader();
+  ~vtkEdgeStereoReader() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  std::string FileName;
+  double MinimumDepth = 0.0;
+  double MaximumDepth = 0.0;
+  double Smoothing = 1.0;
+  double LowContrast = 1.8;
+  double HighContrast = 4.5;
+  double Tolerance = 0.5;
+  double MinimumAngle = 12.0;
+  double ColorTolerance = 30.0;
+  int MinimumRun = 6;
+
+private:
+  vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
+  void operator=(const vtkEdgeStereoReader&) = delete;
+
+  vtkTimeStamp FileChanged;
+  long long FileTime = 0;
+};
+
+#endif
