@@ -3,6 +3,7 @@
 
 #include "AlgorithmProgress.h"
 #include "EdgeStereo.h"
+#include "ProposeClusters.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
 
@@ -126,11 +127,7 @@ int vtkEdgeStereoReader::RequestData(
       options.matching.minimumDisparity = 1 / this->MaximumDepth;
     }
     options.Check();
-    const freespace::Scene scene = freespace::ReadScene(this->FileName);
-    if (scene.clusters.empty())
-    {
-      throw freespace::Error("The scene " + this->FileName + " has no clusters.");
-    }
+    const freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName);
     const std::vector<freespace::EdgeView> views =
       FindAllFeatures(scene, options, freespace::AlgorithmProgress(this));
     for (std::size_t i = 0; i < views.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene.h"
 
+#include "AtomicOutput.h"
 #include "ColmapModel.h"
 #include "Error.h"
 
@@ -233,6 +234,45 @@ std::string Resolve(const std::string& sceneFile, const std::string& folder)
   return (fs::path(sceneFile).parent_path() / folder).string();
 }
 
+// A folder that stands relative to one file, relative to another.
+std::string Rebase(const std::string& from, const std::string& folder, const std::string& to)
+{
+  if (folder.empty() || fs::path(folder).is_absolute())
+  {
+    return folder;
+  }
+  return fs::proximate(
+    fs::absolute(Resolve(from, folder)), fs::absolute(fs::path(to)).parent_path())
+    .string();
+}
+
+// Ordered, so that the file reads as it is documented.
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson JsonFromCluster(const Cluster& cluster)
+{
+  OrderedJson json;
+  json["name"] = cluster.name;
+  json["reference"] = cluster.reference;
+  json["triplets"] = cluster.triplets;
+  return json;
+}
+
+OrderedJson JsonFromBoard(const Board& board)
+{
+  const bool charuco = board.kind == Board::Kind::Charuco;
+  OrderedJson json;
+  json["type"] = charuco ? "charuco" : "chessboard";
+  json[charuco ? "squares" : "corners"] = { board.columns, board.rows };
+  json["square_m"] = board.square;
+  if (charuco)
+  {
+    json["marker_m"] = board.marker;
+    json["dictionary"] = board.dictionary;
+  }
+  return json;
+}
+
 }
 
 void Board::Check() const
@@ -285,6 +325,31 @@ Scene ReadScene(const std::string& file)
     scene.board = ReadBoard(root.At("board"));
   }
   return scene;
+}
+
+void WriteScene(const Scene& scene, const std::string& file)
+{
+  OrderedJson json;
+  json["images"] = Rebase(scene.file, scene.images, file);
+  json["model"] = Rebase(scene.file, scene.model, file);
+  for (const Cluster& cluster : scene.clusters)
+  {
+    json["clusters"].push_back(JsonFromCluster(cluster));
+  }
+  if (scene.board)
+  {
+    json["board"] = JsonFromBoard(*scene.board);
+  }
+  AtomicOutput target(file);
+  std::ofstream stream(target.Path());
+  // Bytes that are no UTF-8, which file names may have, are replaced rather than thrown at.
+  stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << "\n";
+  stream.close();
+  if (!stream)
+  {
+    throw Error("Cannot write " + file + ": the disk is full or failed.");
+  }
+  target.Commit();
 }
 
 SparseModel ReadSceneModel(const Scene& scene)

@@ -72,6 +72,10 @@ struct Scene
 /// clusters of one name, a board that makes no sense.
 Scene ReadScene(const std::string& file);
 
+/// Writes a scene as a scene.json, which is made beside its target and renamed. Relative folders
+/// are made relative to the new file. Throws Error when the file cannot be written.
+void WriteScene(const Scene& scene, const std::string& file);
+
 /// Reads the scene's camera model. Throws Error when that fails (see ReadColmapModel) or when a
 /// cluster names an image that the model does not have.
 SparseModel ReadSceneModel(const Scene& scene);

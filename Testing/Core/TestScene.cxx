@@ -103,6 +103,32 @@ TEST(Scene, Chessboard)
   EXPECT_EQ(scene.board->rows, 6);
 }
 
+TEST(Scene, WrittenAndReadAgain)
+{
+  TemporaryFolder folder;
+  const Scene scene = ReadScene(folder.Write("a/scene.json",
+    R"({ "images": "pictures", "model": "/absolute", "clusters": [)" + cluster + R"(], "board": )" +
+      board + "}"));
+  std::filesystem::create_directories(folder.Path("b"));
+  WriteScene(scene, folder.Path("b/copy.json"));
+  const Scene copy = ReadScene(folder.Path("b/copy.json"));
+  EXPECT_EQ(copy.images, "../a/pictures");
+  EXPECT_EQ(copy.model, "/absolute");
+  ASSERT_EQ(copy.clusters.size(), 1u);
+  EXPECT_EQ(copy.clusters[0].name, "one");
+  EXPECT_EQ(copy.clusters[0].reference, "c");
+  EXPECT_EQ(copy.clusters[0].triplets, scene.clusters[0].triplets);
+  ASSERT_TRUE(copy.board.has_value());
+  EXPECT_EQ(copy.board->columns, 15);
+  EXPECT_EQ(copy.board->square, 0.03);
+  EXPECT_EQ(copy.board->dictionary, "DICT_5X5_250");
+}
+
+TEST(Scene, WrittenToAFolderThatIsNotThere)
+{
+  EXPECT_THROW(WriteScene(Scene(), "/no/such/folder/scene.json"), Error);
+}
+
 TEST(Scene, MissingFile)
 {
   EXPECT_THROW(ReadScene("/no/such/scene.json"), Error);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkClusterProposal
+ * @brief choose the clusters of images for edge stereo
+ *
+ * Section 3 of the paper takes clusters of five images, "in a cross", whose middle one is the
+ * reference; a row of three will do too. For each image of a scene this class looks for the
+ * neighbours that make the best cross, or else the best row, by baseline, overlap and viewing
+ * angle, and of all these clusters keeps the good ones whose references do not stand too near to
+ * each other. Clusters that the scene.json has are left out of account.
+ *
+ * The depth of the scene and what images have in common come from the points of the camera model;
+ * for an image without points from where the optical axes of its neighbours pass its own. Angles
+ * are those at the scene between the rays to two images' centres: nothing here has the unit of the
+ * model. Images whose photograph is missing from the folder of the images are not proposed, as long
+ * as that folder exists at all.
+ *
+ * Propose() reads the scene and chooses; the result can be printed (GetText), asked for, and saved
+ * as a scene.json (WriteScene). What cannot be read or written, and a scene in which no image has
+ * neighbours on opposite sides, is an error that names the file; the functions then return 0.
+ */
+#ifndef vtkClusterProposal_h
+#define vtkClusterProposal_h
+
+#include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkObject.h"
+
+#include <memory> // for the result
+#include <string> // for FileName
+
+class VTKFREESPACEREADERS_EXPORT vtkClusterProposal : public vtkObject
+{
+public:
+  static vtkClusterProposal* New();
+  vtkTypeMacro(vtkClusterProposal, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The scene.json whose images and camera model are used.
+   */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+  ///@{
+  /**
+   * The best angle between the reference and a neighbour, in degrees. Default 5.
+   */
+  vtkSetMacro(PreferredAngle, double);
+  vtkGetMacro(PreferredAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Neighbours at less than this angle are not taken, in degrees. Default 1.
+   */
+  vtkSetMacro(MinimumAngle, double);
+  vtkGetMacro(MinimumAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Neighbours at more than this angle are not taken, in degrees. Default 20.
+   */
+  vtkSetMacro(MaximumAngle, double);
+  vtkGetMacro(MaximumAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * The least fraction of the reference's picture that a neighbour must see. Default 0.4.
+   */
+  vtkSetMacro(MinimumOverlap, double);
+  vtkGetMacro(MinimumOverlap, double);
+  ///@}
+
+  ///@{
+  /**
+   * References nearer to each other than this, seen from the scene in degrees, have the same free
+   * space: only the better is kept. 0 makes every image that can be one a reference. Default 5.
+   */
+  vtkSetMacro(Separation, double);
+  vtkGetMacro(Separation, double);
+  ///@}
+
+  /**
+   * Read the scene and choose. Returns 1, or 0 after an error.
+   */
+  int Propose();
+
+  ///@{
+  /**
+   * What Propose() chose.
+   */
+  int GetNumberOfClusters();
+  std::string GetReference(int cluster);
+  int GetNumberOfTriplets(int cluster);
+  ///@}
+
+  /**
+   * A line for each triplet that Propose() chose, with its images, angles and overlaps.
+   */
+  std::string GetText();
+
+  /**
+   * Write the scene with the clusters that Propose() chose. Returns 1, or 0 after an error.
+   */
+  int WriteScene(const std::string& fileName);
+
+protected:
+  vtkClusterProposal();
+  ~vtkClusterProposal() override;
+
+  std::string FileName;
+  double PreferredAngle = 5.0;
+  double MinimumAngle = 1.0;
+  double MaximumAngle = 20.0;
+  double MinimumOverlap = 0.4;
+  double Separation = 5.0;
+
+private:
+  vtkClusterProposal(const vtkClusterProposal&) = delete;
+  void operator=(const vtkClusterProposal&) = delete;
+
+  struct Result;
+  std::unique_ptr<Result> Chosen;
+};
+
+#endif
