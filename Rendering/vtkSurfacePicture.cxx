@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfacePicture.h"
+
+#include "AtomicOutput.h"
+#include "CameraForVTK.h"
+#include "Error.h"
+#include "ViewBlocks.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkLight.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+vtkStandardNewMacro(vtkSurfacePicture);
+
+// The window and what is in it, made at the first picture.
+struct vtkSurfacePicture::Stage
+{
+  std::optional<freespace::Camera> view;
+  vtkSmartPointer<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkActor> actor;
+  vtkNew<vtkPolyDataMapper> greyMapper;
+};
+
+namespace
+{
+
+constexpr int LargestWindow = 8192; // pixels along a side; every OpenGL 3.2 of today has this
+
+void AddCameraLight(vtkRenderer* renderer, double x, double y, double z, double intensity)
+{
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(x, y, z);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  light->SetIntensity(intensity);
+  renderer->AddLight(light);
+}
+
+// A key light from the upper left and one from the camera, so that no facet is black.
+void SetUpLights(vtkRenderer* renderer)
+{
+  renderer->AutomaticLightCreationOff();
+  AddCameraLight(renderer, -0.45, 0.65, 0.6, 0.36);
+  AddCameraLight(renderer, 0.0, 0.0, 1.0, 0.26);
+}
+
+void SetUpGreyLook(vtkActor* actor)
+{
+  vtkProperty* outside = actor->GetProperty();
+  outside->SetInterpolationToFlat();
+  outside->SetColor(0.94, 0.97, 1.0);
+  outside->SetAmbient(0.35);
+  outside->SetDiffuse(1.0);
+  outside->SetSpecular(0.0);
+  vtkNew<vtkProperty> inside;
+  inside->DeepCopy(outside);
+  inside->SetColor(1.0, 0.82, 0.68);
+  inside->SetAmbient(0.25);
+  actor->SetBackfaceProperty(inside);
+}
+
+bool HasColours(vtkDataSetAttributes* attributes)
+{
+  auto* colours = vtkUnsignedCharArray::SafeDownCast(attributes->GetScalars());
+  return colours && colours->GetNumberOfComponents() >= 3;
+}
+
+// Obliquely from above, as near as lets every point in, with a small margin. A point at (x, y, z)
+// right, above and in front of the middle is seen by a camera at (a, b, -d) where |x - a| <= tanX
+// (z + d) and |y - b| <= tanY (z + d): four half-spaces, whose extremes over all points are enough.
+void LookAtWhole(vtkPolyData* surface, const int size[2], vtkCamera* camera)
+{
+  const double margin = 1.04;
+  const double halfAngle = vtkMath::RadiansFromDegrees(15.0);
+  const double tanY = std::tan(halfAngle) / margin;
+  const double tanX = tanY * size[0] / size[1];
+  const Eigen::Vector3d forward = Eigen::Vector3d(0.45, 0.70, -0.55).normalized();
+  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d up = right.cross(forward);
+  Eigen::Vector4d most = Eigen::Vector4d::Constant(-std::numeric_limits<double>::infinity());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    const Eigen::Vector3d point(surface->GetPoint(i));
+    const double x = right.dot(point);
+    const double y = up.dot(point);
+    const double z = forward.dot(point);
+    most = most.cwiseMax(Eigen::Vector4d(x - tanX * z, -x - tanX * z, y - tanY * z, -y - tanY * z));
+  }
+  const double distance =
+    std::max((most[0] + most[1]) / (2 * tanX), (most[2] + most[3]) / (2 * tanY));
+  const Eigen::Vector3d from =
+    (most[0] - most[1]) / 2 * right + (most[2] - most[3]) / 2 * up - distance * forward;
+  const Eigen::Vector3d focal = from + forward;
+  camera->SetUserTransform(nullptr);
+  camera->SetWindowCenter(0.0, 0.0);
+  camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(halfAngle));
+  camera->SetPosition(from.data());
+  camera->SetFocalPoint(focal.data());
+  camera->SetViewUp(up.data());
+}
+
+// Darkens the near side of each jump in depth, so that blocks stand out from a board of their tone.
+// What the depth buffer holds is affine in 1 / depth, and so over the image of a plane: unlike
+// depth, its second difference does not see a plane however steep, and a jump is told by a fraction
+// of 1 / depth.
+void DrawOutlines(
+  const float* depths, const double range[2], int width, int height, unsigned char* pixels)
+{
+  const double faint = 0.004; // of 1 / depth
+  const double full = 0.02;
+  const double darkest = 0.5;
+  const double scale = (range[1] - range[0]) / (range[0] * range[1]);
+  for (int y = 1; y + 1 < height; ++y)
+  {
+    for (int x = 1; x + 1 < width; ++x)
+    {
+      const float* depth = depths + std::size_t(y) * width + x;
+      const double disparity = 1.0 / range[0] - depth[0] * scale;
+      const double across = double(depth[-1]) + depth[1] - 2.0 * depth[0];
+      const double along = double(depth[-width]) + depth[width] - 2.0 * depth[0];
+      const double jump = std::max(across, along) * scale / disparity;
+      const double strength = std::clamp((jump - faint) / (full - faint), 0.0, 1.0);
+      if (strength > 0 && depth[0] < 1.0f)
+      {
+        unsigned char* pixel = pixels + 3 * (std::size_t(y) * width + x);
+        for (int channel = 0; channel < 3; ++channel)
+        {
+          pixel[channel] = static_cast<unsigned char>((1 - strength * darkest) * pixel[channel]);
+        }
+      }
+    }
+  }
+}
+
+// The mean of each square of samples x samples pixels.
+void Average(const unsigned char* fine, int samples, int width, int height, unsigned char* coarse)
+{
+  const int half = samples * samples / 2;
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < 3 * width; ++x)
+    {
+      const int channel = x % 3;
+      int sum = half;
+      for (int row = 0; row < samples; ++row)
+      {
+        const std::size_t line = std::size_t(y) * samples + row;
+        const unsigned char* first =
+          fine + 3 * (line * width * samples + x / 3 * samples) + channel;
+        for (int column = 0; column < samples; ++column)
+        {
+          sum += first[3 * column];
+        }
+      }
+      *coarse++ = static_cast<unsigned char>(sum / (samples * samples));
+    }
+  }
+}
+
+}
+
+vtkSurfacePicture::vtkSurfacePicture()
+  : Shown(new Stage)
+{
+}
+
+vtkSurfacePicture::~vtkSurfacePicture() = default;
+
+void vtkSurfacePicture::SetView(
+  const double intrinsics[9], const double cameraFromWorld[12], const int imageSize[2])
+{
+  try
+  {
+    this->Shown->view = freespace::CameraFromArrays(intrinsics, cameraFromWorld, imageSize);
+    this->Modified();
+  }
+  catch (const freespace::Error& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkSurfacePicture::SetViewBlock(vtkPolyData* block)
+{
+  try
+  {
+    const freespace::Camera camera = freespace::ViewFromBlock(block, "to look from").camera;
+    freespace::CheckCamera(camera);
+    this->Shown->view = camera;
+    this->Modified();
+  }
+  catch (const freespace::Error& error)
+  {
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkSurfacePicture::NoView()
+{
+  this->Shown->view.reset();
+  this->Modified();
+}
+
+void vtkSurfacePicture::SetMapper(vtkPolyDataMapper* mapper)
+{
+  if (this->Mapper != mapper)
+  {
+    this->Mapper = mapper;
+    this->Modified();
+  }
+}
+
+vtkPolyDataMapper* vtkSurfacePicture::GetMapper()
+{
+  return this->Mapper;
+}
+
+vtkMTimeType vtkSurfacePicture::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Mapper ? std::max(own, this->Mapper->GetMTime()) : own;
+}
+
+int vtkSurfacePicture::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+int vtkSurfacePicture::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  const auto& view = this->Shown->view;
+  const int extent[6] = { 0, (view ? view->width : this->Size[0]) - 1, 0,
+    (view ? view->height : this->Size[1]) - 1, 0, 0 };
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_UNSIGNED_CHAR, 3);
+  return 1;
+}
+
+int vtkSurfacePicture::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
+  vtkImageData* picture = vtkImageData::GetData(outputVector);
+  Stage& stage = *this->Shown;
+  const int width = stage.view ? stage.view->width : this->Size[0];
+  const int height = stage.view ? stage.view->height : this->Size[1];
+  if (surface->GetNumberOfCells() == 0)
+  {
+    vtkErrorMacro("There is no surface to make a picture of.");
+    return 0;
+  }
+  if (width < 1 || height < 1 || std::max(width, height) > LargestWindow)
+  {
+    vtkErrorMacro("A picture of " << width << "x" << height << " pixels cannot be made.");
+    return 0;
+  }
+  const int samples = std::min(this->Samples, LargestWindow / std::max(width, height));
+
+  if (!stage.window)
+  {
+    stage.window = vtkSmartPointer<vtkRenderWindow>::New();
+    stage.window->SetOffScreenRendering(1);
+    stage.window->SetMultiSamples(0);
+    stage.window->AddRenderer(stage.renderer);
+    stage.renderer->AddActor(stage.actor);
+    SetUpLights(stage.renderer);
+    SetUpGreyLook(stage.actor);
+  }
+  vtkPolyDataMapper* mapper = this->Mapper ? this->Mapper.Get() : stage.greyMapper.Get();
+  if (mapper->GetInput() != surface)
+  {
+    mapper->SetInputData(surface);
+  }
+  stage.greyMapper->SetScalarVisibility(
+    HasColours(surface->GetPointData()) || HasColours(surface->GetCellData()));
+  stage.actor->SetMapper(mapper);
+  stage.actor->GetProperty()->SetLighting(!this->Mapper);
+  stage.renderer->SetBackground(this->Background);
+  stage.window->SetSize(samples * width, samples * height);
+
+  vtkCamera* camera = stage.renderer->GetActiveCamera();
+  if (stage.view)
+  {
+    freespace::ApplyCamera(*stage.view, camera);
+  }
+  else
+  {
+    LookAtWhole(surface, this->Size, camera);
+  }
+  stage.renderer->ResetCameraClippingRange();
+  stage.window->Render();
+
+  vtkNew<vtkUnsignedCharArray> fine;
+  stage.window->GetPixelData(0, 0, samples * width - 1, samples * height - 1, 1, fine);
+  if (fine->GetNumberOfTuples() != vtkIdType(samples) * samples * width * height)
+  {
+    vtkErrorMacro("The render window gave no picture.");
+    return 0;
+  }
+  if (!this->Mapper)
+  {
+    vtkNew<vtkFloatArray> depths;
+    stage.window->GetZbufferData(0, 0, samples * width - 1, samples * height - 1, depths);
+    DrawOutlines(depths->GetPointer(0), camera->GetClippingRange(), samples * width,
+      samples * height, fine->GetPointer(0));
+  }
+  picture->SetExtent(0, width - 1, 0, height - 1, 0, 0);
+  picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  Average(fine->GetPointer(0), samples, width, height,
+    static_cast<unsigned char*>(picture->GetScalarPointer()));
+  return 1;
+}
+
+int vtkSurfacePicture::WritePNG(const std::string& fileName)
+{
+  this->Update();
+  vtkImageData* picture = this->GetOutput();
+  if (picture->GetNumberOfPoints() == 0)
+  {
+    return 0; // told by Update
+  }
+  try
+  {
+    freespace::AtomicOutput target(fileName);
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(picture);
+    writer->SetFileName(target.Path().c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != vtkErrorCode::NoError)
+    {
+      throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+    }
+    target.Commit();
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+void vtkSurfacePicture::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "View: " << (this->Shown->view ? "calibrated" : "default") << "\n";
+  os << indent << "Size: " << this->Size[0] << " " << this->Size[1] << "\n";
+  os << indent << "Samples: " << this->Samples << "\n";
+  os << indent << "Background: " << this->Background[0] << " " << this->Background[1] << " "
+     << this->Background[2] << "\n";
+  os << indent << "Mapper: " << this->Mapper.Get() << "\n";
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfacePicture.h"
+
+#include "Camera.h"
+#include "PictureComparison.h"
+
+#include <vtkAppendPolyData.h>
+#include <vtkCubeSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphereSource.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <array>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+// A ball on a slab; the slab's top is z = 0.
+vtkSmartPointer<vtkPolyData> BallOnSlab()
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(0.5);
+  ball->SetCenter(0.0, 0.0, 0.5);
+  ball->SetThetaResolution(32);
+  ball->SetPhiResolution(16);
+  vtkNew<vtkCubeSource> slab;
+  slab->SetBounds(-1.5, 1.5, -1.0, 1.0, -0.2, 0.0);
+  vtkNew<vtkAppendPolyData> both;
+  both->AddInputConnection(ball->GetOutputPort());
+  both->AddInputConnection(slab->GetOutputPort());
+  both->Update();
+  vtkSmartPointer<vtkPolyData> surface = both->GetOutput();
+  surface->GetPointData()->Initialize();
+  return surface;
+}
+
+// From straight above at height 4: 100 pixels to the unit on the slab, x right, y up in the
+// picture.
+const double FromAboveK[9] = { 400, 0, 170, 0, 400, 110, 0, 0, 1 };
+const double FromAbove[12] = { 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 4 };
+const int FromAboveSize[2] = { 320, 240 };
+
+std::array<int, 3> Colour(vtkImageData* picture, int column, int row) // row 0 at the top
+{
+  int size[3];
+  picture->GetDimensions(size);
+  const auto* pixel =
+    static_cast<const unsigned char*>(picture->GetScalarPointer(column, size[1] - 1 - row, 0));
+  return { pixel[0], pixel[1], pixel[2] };
+}
+
+bool IsWhite(vtkImageData* picture, int column, int row)
+{
+  return Colour(picture, column, row) == std::array<int, 3>{ 255, 255, 255 };
+}
+
+std::string TemporaryFolder()
+{
+  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
+  return mkdtemp(pattern.data());
+}
+
+}
+
+TEST(SurfacePicture, CalibratedViewIsExact)
+{
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->Update();
+  vtkImageData* image = picture->GetOutput();
+  EXPECT_EQ(image->GetDimensions()[0], 320);
+  EXPECT_EQ(image->GetDimensions()[1], 240);
+  // The slab's edges are at u = 170 -+ 150 and v = 110 -+ 100.
+  EXPECT_TRUE(IsWhite(image, 18, 110));
+  EXPECT_FALSE(IsWhite(image, 20, 110));
+  EXPECT_FALSE(IsWhite(image, 319, 110));
+  EXPECT_TRUE(IsWhite(image, 100, 8));
+  EXPECT_FALSE(IsWhite(image, 100, 10));
+  EXPECT_FALSE(IsWhite(image, 100, 209));
+  EXPECT_TRUE(IsWhite(image, 100, 211));
+  ExpectBaseline(image, "SurfacePictureFromAbove");
+}
+
+TEST(SurfacePicture, DefaultViewShowsAllAndFillsThePicture)
+{
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  for (const auto& size : { std::array<int, 2>{ 320, 240 }, { 200, 300 } })
+  {
+    picture->SetSize(size.data());
+    picture->Update();
+    vtkImageData* image = picture->GetOutput();
+    int box[4] = { size[0], 0, size[1], 0 };
+    for (int row = 0; row < size[1]; ++row)
+    {
+      for (int column = 0; column < size[0]; ++column)
+      {
+        if (!IsWhite(image, column, row))
+        {
+          box[0] = std::min(box[0], column);
+          box[1] = std::max(box[1], column);
+          box[2] = std::min(box[2], row);
+          box[3] = std::max(box[3], row);
+        }
+      }
+    }
+    EXPECT_GT(box[0], 0);
+    EXPECT_LT(box[1], size[0] - 1);
+    EXPECT_GT(box[2], 0);
+    EXPECT_LT(box[3], size[1] - 1);
+    EXPECT_GT(std::max(double(box[1] - box[0]) / size[0], double(box[3] - box[2]) / size[1]), 0.9);
+  }
+  picture->SetSize(320, 240);
+  picture->Update();
+  ExpectBaseline(picture->GetOutput(), "SurfacePictureDefault");
+}
+
+TEST(SurfacePicture, GoesBackToTheDefaultView)
+{
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  picture->SetSize(160, 120);
+  picture->Update();
+  vtkNew<vtkImageData> first;
+  first->DeepCopy(picture->GetOutput());
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->Update();
+  EXPECT_EQ(picture->GetOutput()->GetDimensions()[0], 320);
+  picture->NoView();
+  picture->Update();
+  EXPECT_EQ(ComparePictures(first, picture->GetOutput()).mean, 0.0);
+}
+
+TEST(SurfacePicture, ShowsColoursOfPoints)
+{
+  auto surface = BallOnSlab();
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  const unsigned char green[3] = { 0, 255, 0 };
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    colours->InsertNextTypedTuple(green);
+  }
+  surface->GetPointData()->SetScalars(colours);
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(surface);
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->Update();
+  const auto colour = Colour(picture->GetOutput(), 60, 60);
+  EXPECT_EQ(colour[0], 0);
+  EXPECT_GT(colour[1], 100);
+  EXPECT_EQ(colour[2], 0);
+}
+
+TEST(SurfacePicture, SurfaceMayChange)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputConnection(sphere->GetOutputPort());
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->Update();
+  EXPECT_TRUE(IsWhite(picture->GetOutput(), 170 + 75, 110));
+  sphere->SetRadius(1.0);
+  picture->Update();
+  EXPECT_FALSE(IsWhite(picture->GetOutput(), 170 + 75, 110));
+}
+
+TEST(SurfacePicture, WritesThePNGThatItShows)
+{
+  const std::string folder = TemporaryFolder();
+  const std::string file = folder + "/picture.png";
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  ASSERT_EQ(picture->WritePNG(file), 1);
+  ASSERT_EQ(picture->WritePNG(file), 1); // the second replaces the first
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  EXPECT_EQ(ComparePictures(reader->GetOutput(), picture->GetOutput()).mean, 0.0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1)
+    << "something half-written was left behind";
+  fs::remove_all(folder);
+}
+
+TEST(SurfacePicture, UnwritableFolderIsAnError)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  picture->SetSize(32, 24);
+  EXPECT_EQ(picture->WritePNG("/nowhere/at/all/picture.png"), 0);
+}
+
+TEST(SurfacePicture, EmptySurfaceIsAnError)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  const std::string folder = TemporaryFolder();
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(empty);
+  EXPECT_EQ(picture->WritePNG(folder + "/picture.png"), 0);
+  EXPECT_TRUE(fs::is_empty(folder));
+  fs::remove_all(folder);
+}
+
+TEST(SurfacePicture, RefusesACameraThatIsNone)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(BallOnSlab());
+  picture->SetSize(32, 24);
+  const double noRotation[12] = {};
+  picture->SetView(FromAboveK, noRotation, FromAboveSize);
+  picture->Update();
+  EXPECT_EQ(picture->GetOutput()->GetDimensions()[0], 32);
+}
