@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DelaunayDisparity.h"
+
+#include "Error.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <queue>
+#include <thread>
+
+namespace freespace
+{
+
+namespace
+{
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Pixel = Kernel::Point_2;
+
+// What a triangle knows: the first of the list of candidates that lie in it, and how often it has
+// changed, which tells entries of the queue that are out of date.
+struct FaceInfo
+{
+  int firstCandidate = -1;
+  unsigned int version = 0;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>; // index of the point
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
+using Triangulation = CGAL::Delaunay_triangulation_2<Kernel,
+  CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+using Face = Triangulation::Face_handle;
+using Vertex = Triangulation::Vertex_handle;
+
+// A world point as a view sees it.
+struct Sighting
+{
+  Pixel pixel = Pixel(0, 0);
+  double disparity = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  int sourceView = 0;
+};
+
+// A point that may have to be inserted, linked into the list of its triangle.
+struct Candidate : Sighting
+{
+  explicit Candidate(const Sighting& sighting)
+    : Sighting(sighting)
+  {
+  }
+  double height = 0; // above the surface, disparity
+  int next = -1;     // in the same triangle
+};
+
+bool Sight(const Camera& camera, const Eigen::Vector3d& point, int sourceView, Sighting& sighting)
+{
+  const double depth = camera.Depth(point);
+  if (!(depth > 0)) // also where it is not a number
+  {
+    return false;
+  }
+  const Eigen::Vector2d pixel = camera.Project(point);
+  if (!std::isfinite(1 / depth) || !camera.Sees(pixel))
+  {
+    return false;
+  }
+  sighting.pixel = Pixel(pixel.x(), pixel.y());
+  sighting.disparity = 1 / depth;
+  sighting.point = point;
+  sighting.sourceView = sourceView;
+  return true;
+}
+
+// Indices along a space-filling curve, so that each point is found near the one before.
+template <typename Sightings>
+std::vector<std::size_t> SpatialOrder(const Sightings& sightings)
+{
+  std::vector<Pixel> pixels;
+  pixels.reserve(sightings.size());
+  for (const Sighting& sighting : sightings)
+  {
+    pixels.push_back(sighting.pixel);
+  }
+  std::vector<std::size_t> order(pixels.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  using Map = CGAL::Pointer_property_map<Pixel>::const_type;
+  CGAL::spatial_sort(order.begin(), order.end(),
+    CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(
+      CGAL::make_property_map(static_cast<const std::vector<Pixel>&>(pixels))));
+  return order;
+}
+
+double Cross(const Pixel& a, const Pixel& b, const Pixel& origin)
+{
+  return (a.x() - origin.x()) * (b.y() - origin.y()) - (a.y() - origin.y()) * (b.x() - origin.x());
+}
+
+// The triangulated disparity surface of one view while it grows.
+class DisparitySurface
+{
+public:
+  explicit DisparitySurface(const View& view)
+    : Name(view.name)
+  {
+  }
+
+  void TriangulateFeatures(const std::vector<Sighting>& features);
+  void AddCandidates(const std::vector<Sighting>& sightings);
+  void EnforceMinimumDisparity(double tolerance);
+  void Fill(DisparityMap& map) const;
+
+private:
+  // The candidate of a triangle that is highest above it.
+  struct Highest
+  {
+    double height;
+    int candidate;
+    Face face;
+    unsigned int version;
+
+    // The queue serves the highest; of equals, the one that was given first.
+    bool operator<(const Highest& other) const
+    {
+      return this->height != other.height ? this->height < other.height
+                                          : this->candidate > other.candidate;
+    }
+  };
+
+  double Disparity(Face face, const Pixel& pixel) const;
+  void PutInto(Face face, int candidate);
+  void Enqueue(Face face);
+  void Insert(int candidate, Face face);
+  std::vector<int> TakeConflicting(const Pixel& pixel, Face face);
+  std::vector<Face> Star(Vertex center) const;
+  void Redistribute(const std::vector<int>& candidates, Vertex center);
+
+  std::string Name;
+  std::vector<Sighting> Points; // of the triangulation, by the vertex' info
+  std::vector<Candidate> Candidates;
+  Triangulation Delaunay;
+  std::priority_queue<Highest> Queue;
+  double Tolerance = 0;
+};
+
+void DisparitySurface::TriangulateFeatures(const std::vector<Sighting>& features)
+{
+  if (features.size() < 3)
+  {
+    throw Error("View '" + this->Name + "' has " + std::to_string(features.size()) +
+      " usable features, but a disparity map needs at least three.");
+  }
+  constexpr int hidden = -1;
+  std::vector<Vertex> vertices(features.size());
+  std::vector<int> nearest(features.size(), hidden);
+  Face hint;
+  for (const std::size_t i : SpatialOrder(features))
+  {
+    const std::size_t before = this->Delaunay.number_of_vertices();
+    const Vertex vertex = this->Delaunay.insert(features[i].pixel, hint);
+    hint = vertex->face();
+    const bool isNew = this->Delaunay.number_of_vertices() > before;
+    if (isNew || features[i].disparity > features[vertex->info()].disparity)
+    {
+      vertex->info() = static_cast<int>(i);
+    }
+  }
+  if (this->Delaunay.dimension() < 2)
+  {
+    throw Error("View '" + this->Name + "' has only collinear features, which span no triangle.");
+  }
+  for (const Vertex vertex : this->Delaunay.finite_vertex_handles())
+  {
+    vertices[vertex->info()] = vertex;
+  }
+  for (std::size_t i = 0; i < features.size(); ++i)
+  {
+    if (vertices[i] != Vertex())
+    {
+      vertices[i]->info() = static_cast<int>(this->Points.size());
+      this->Points.push_back(features[i]);
+    }
+  }
+}
+
+// The disparity of the triangle at a pixel inside it.
+double DisparitySurface::Disparity(Face face, const Pixel& pixel) const
+{
+  double weighted = 0, sum = 0, greatest = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    // The pixel is inside by an exact test: a negative weight is a rounding error.
+    const double weight = std::max(0.0,
+      Cross(face->vertex(Triangulation::ccw(i))->point(),
+        face->vertex(Triangulation::cw(i))->point(), pixel));
+    const double disparity = this->Points[face->vertex(i)->info()].disparity;
+    weighted += weight * disparity;
+    sum += weight;
+    greatest = std::max(greatest, disparity);
+  }
+  return sum > 0 ? weighted / sum : greatest;
+}
+
+void DisparitySurface::PutInto(Face face, int candidate)
+{
+  Candidate& point = this->Candidates[candidate];
+  point.height = point.disparity - this->Disparity(face, point.pixel);
+  point.next = face->info().firstCandidate;
+  face->info().firstCandidate = candidate;
+}
+
+// Enters the triangle's highest candidate that is above the tolerance into the queue.
+void DisparitySurface::Enqueue(Face face)
+{
+  Highest highest{ 0, -1, face, face->info().version };
+  for (int c = face->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
+  {
+    const Candidate& point = this->Candidates[c];
+    if (point.height > this->Tolerance * point.disparity)
+    {
+      const Highest entry{ point.height, c, face, face->info().version };
+      if (highest.candidate < 0 || highest < entry)
+      {
+        highest = entry;
+      }
+    }
+  }
+  if (highest.candidate >= 0)
+  {
+    this->Queue.push(highest);
+  }
+}
+
+// Only points over the triangulated region can stick out of it.
+void DisparitySurface::AddCandidates(const std::vector<Sighting>& sightings)
+{
+  std::vector<Face> faces(sightings.size());
+  Face hint;
+  for (const std::size_t i : SpatialOrder(sightings))
+  {
+    Triangulation::Locate_type type;
+    int index = 0;
+    const Face face = this->Delaunay.locate(sightings[i].pixel, type, index, hint);
+    hint = face;
+    if (type != Triangulation::OUTSIDE_CONVEX_HULL)
+    {
+      faces[i] = face;
+    }
+  }
+  for (std::size_t i = 0; i < sightings.size(); ++i)
+  {
+    if (faces[i] != Face())
+    {
+      this->Candidates.emplace_back(sightings[i]);
+      this->PutInto(faces[i], static_cast<int>(this->Candidates.size()) - 1);
+    }
+  }
+}
+
+// Takes the candidates out of the triangles that a point at the pixel will replace.
+std::vector<int> DisparitySurface::TakeConflicting(const Pixel& pixel, Face face)
+{
+  std::vector<Face> conflicts;
+  this->Delaunay.get_conflicts(pixel, std::back_inserter(conflicts), face);
+  std::vector<int> taken;
+  for (const Face conflict : conflicts)
+  {
+    FaceInfo& info = conflict->info();
+    for (int c = info.firstCandidate; c >= 0; c = this->Candidates[c].next)
+    {
+      taken.push_back(c);
+    }
+    info.firstCandidate = -1;
+    ++info.version;
+  }
+  return taken;
+}
+
+// The finite triangles around a vertex, counter-clockwise.
+std::vector<Face> DisparitySurface::Star(Vertex center) const
+{
+  std::vector<Face> star;
+  auto face = this->Delaunay.incident_faces(center);
+  const auto first = face;
+  do
+  {
+    if (!this->Delaunay.is_infinite(face))
+    {
+      star.push_back(face);
+    }
+  } while (++face != first);
+  return star;
+}
+
+// Gives candidates to the triangles around a new vertex. They fill the hole that its insertion
+// made, and each spans less than half a turn: the two edges at the vertex decide which of them a
+// point is in.
+void DisparitySurface::Redistribute(const std::vector<int>& candidates, Vertex center)
+{
+  const std::vector<Face> star = this->Star(center);
+  for (const Face face : star)
+  {
+    ++face->info().version;
+  }
+  std::size_t guess = 0;
+  for (const int candidate : candidates)
+  {
+    const Pixel& pixel = this->Candidates[candidate].pixel;
+    for (std::size_t tried = 0; tried < star.size(); ++tried, guess = (guess + 1) % star.size())
+    {
+      const Face face = star[guess];
+      const int at = face->index(center);
+      const Pixel& first = face->vertex(Triangulation::ccw(at))->point();
+      const Pixel& second = face->vertex(Triangulation::cw(at))->point();
+      if (CGAL::orientation(center->point(), first, pixel) != CGAL::RIGHT_TURN &&
+        CGAL::orientation(center->point(), second, pixel) != CGAL::LEFT_TURN)
+      {
+        break;
+      }
+    }
+    this->PutInto(star[guess], candidate);
+  }
+  for (const Face face : star)
+  {
+    this->Enqueue(face);
+  }
+}
+
+void DisparitySurface::Insert(int candidate, Face face)
+{
+  const Sighting& sighting = this->Candidates[candidate];
+  Triangulation::Locate_type type;
+  int index = 0;
+  face = this->Delaunay.locate(sighting.pixel, type, index, face);
+  std::vector<int> conflicting;
+  Vertex vertex;
+  if (type == Triangulation::VERTEX)
+  {
+    // It hides the point that is already there: the same triangles, but higher.
+    vertex = face->vertex(index);
+    for (const Face around : this->Star(vertex))
+    {
+      for (int c = around->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
+      {
+        conflicting.push_back(c);
+      }
+      around->info().firstCandidate = -1;
+    }
+    this->Points[vertex->info()] = sighting;
+  }
+  else
+  {
+    conflicting = this->TakeConflicting(sighting.pixel, face);
+    vertex = this->Delaunay.insert(sighting.pixel, type, face, index);
+    vertex->info() = static_cast<int>(this->Points.size());
+    this->Points.push_back(sighting);
+  }
+  conflicting.erase(std::find(conflicting.begin(), conflicting.end(), candidate));
+  this->Redistribute(conflicting, vertex);
+}
+
+void DisparitySurface::EnforceMinimumDisparity(double tolerance)
+{
+  this->Tolerance = tolerance;
+  for (const Face face : this->Delaunay.finite_face_handles())
+  {
+    this->Enqueue(face);
+  }
+  while (!this->Queue.empty())
+  {
+    const Highest highest = this->Queue.top();
+    this->Queue.pop();
+    if (highest.version == highest.face->info().version)
+    {
+      this->Insert(highest.candidate, highest.face);
+    }
+  }
+}
+
+void DisparitySurface::Fill(DisparityMap& map) const
+{
+  for (const Sighting& sighting : this->Points)
+  {
+    map.points.push_back(sighting.point);
+    map.imagePoints.emplace_back(sighting.pixel.x(), sighting.pixel.y());
+    map.sourceView.push_back(sighting.sourceView);
+  }
+  for (const Face face : this->Delaunay.finite_face_handles())
+  {
+    map.triangles.push_back(
+      { face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info() });
+  }
+}
+
+}
+
+void DelaunayDisparityOptions::Check() const
+{
+  if (!(this->tolerance >= 0))
+  {
+    throw Error("The tolerance of the minimum disparity constraint must not be negative.");
+  }
+}
+
+DisparityMap TriangulateView(
+  const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
+{
+  options.Check();
+  const View& view = views[index];
+  std::vector<Sighting> own, others;
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    for (const Eigen::Vector3d& point : views[v].points)
+    {
+      Sighting sighting;
+      if (Sight(view.camera, point, static_cast<int>(v), sighting))
+      {
+        (v == index ? own : others).push_back(sighting);
+      }
+    }
+  }
+  DisparitySurface surface(view);
+  surface.TriangulateFeatures(own);
+  if (options.minimumDisparity)
+  {
+    surface.AddCandidates(others);
+    surface.EnforceMinimumDisparity(options.tolerance);
+  }
+  DisparityMap map;
+  map.name = view.name;
+  map.imageFile = view.imageFile;
+  map.camera = view.camera;
+  surface.Fill(map);
+  return map;
+}
+
+std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
+  const DelaunayDisparityOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+{
+  options.Check();
+  progress(0);
+  std::vector<DisparityMap> maps(views.size());
+  std::vector<std::exception_ptr> faults(views.size());
+  std::atomic<bool> stop{ false };
+  std::atomic<std::size_t> done{ 0 };
+  const std::thread::id caller = std::this_thread::get_id();
+  parallelFor(views.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end && !stop; ++v)
+      {
+        try
+        {
+          maps[v] = TriangulateView(views, v, options);
+          ++done;
+          if (std::this_thread::get_id() == caller)
+          {
+            progress(static_cast<double>(done) / views.size());
+          }
+        }
+        catch (...)
+        {
+          faults[v] = std::current_exception();
+          stop = true;
+        }
+      }
+    });
+  for (const std::exception_ptr& fault : faults)
+  {
+    if (fault)
+    {
+      std::rethrow_exception(fault);
+    }
+  }
+  progress(1);
+  return maps;
+}
+
+}

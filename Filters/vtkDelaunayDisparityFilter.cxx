@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayDisparityFilter.h"
+
+#include "AlgorithmProgress.h"
+#include "DelaunayDisparity.h"
+#include "SMPParallelFor.h"
+#include "ViewBlocks.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+vtkStandardNewMacro(vtkDelaunayDisparityFilter);
+
+int vtkDelaunayDisparityFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkMultiBlockDataSet* input = vtkMultiBlockDataSet::GetData(inputVector[0]);
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  freespace::DelaunayDisparityOptions options;
+  options.minimumDisparity = this->MinimumDisparity != 0;
+  options.tolerance = this->Tolerance;
+  try
+  {
+    const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    const std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
+      views, options, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
+    for (std::size_t i = 0; i < maps.size(); ++i)
+    {
+      freespace::SetNamedBlock(
+        output, static_cast<unsigned int>(i), maps[i].name, freespace::BlockFromMap(maps[i]));
+    }
+  }
+  catch (const freespace::Aborted&)
+  {
+    output->Initialize();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkDelaunayDisparityFilter
+ * @brief a triangulated disparity map for each view, under the minimum disparity constraint
+ *
+ * Triangulates the features of each view in its image (Delaunay) and interpolates their disparity
+ * (1 / depth) linearly. Disparity is affine over the image of a plane, so that each triangle of the
+ * map is the image of the triangle between the world points. What lies between the camera and the
+ * triangles is the view's free space (section 2 of the paper).
+ *
+ * The free space of no view may contain a feature that another view recovered (section 2.1, the
+ * minimum disparity constraint). With MinimumDisparity on, the points of the other views that stick
+ * out of a view's surface are inserted into its triangulation, always the one that is highest above
+ * the current surface in disparity, until none is above it by more than Tolerance. Points count
+ * where they are in front of the camera and project into the convex hull of the view's own
+ * features.
+ *
+ * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader and vtkFeatureSupportFilter make
+ * it. Output: the same blocks with triangles. Point data: `ImagePoint` (double x2, pixels) is where
+ * the world point projects, which for a view's own features can differ from where it was seen;
+ * `SourceView` (int) is the index of the view that supplied the point. Field data as in the input.
+ * Features that are not finite, not in front of the camera, or outside the image are left out.
+ *
+ * A view with fewer than three usable features, or with none but collinear ones, is an error: the
+ * filter names the view and its output is empty. Views are worked on in parallel by vtkSMPTools;
+ * the result does not depend on the number of threads.
+ *
+ * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, sections 2 and 2.1.
+ */
+#ifndef vtkDelaunayDisparityFilter_h
+#define vtkDelaunayDisparityFilter_h
+
+#include "vtkFreespaceFiltersModule.h" // for the export macro
+#include "vtkMultiBlockDataSetAlgorithm.h"
+
+class VTKFREESPACEFILTERS_EXPORT vtkDelaunayDisparityFilter : public vtkMultiBlockDataSetAlgorithm
+{
+public:
+  static vtkDelaunayDisparityFilter* New();
+  vtkTypeMacro(vtkDelaunayDisparityFilter, vtkMultiBlockDataSetAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Whether the minimum disparity constraint is enforced. Default on.
+   */
+  vtkSetMacro(MinimumDisparity, vtkTypeBool);
+  vtkGetMacro(MinimumDisparity, vtkTypeBool);
+  vtkBooleanMacro(MinimumDisparity, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * How far a point of another view may stick out of a view's surface, as a fraction of its
+   * disparity (to first order: of its depth). 0 is the paper; it draws the surface towards the
+   * camera by the noise of the features. Default 0.0005.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+protected:
+  vtkDelaunayDisparityFilter() = default;
+  ~vtkDelaunayDisparityFilter() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  vtkTypeBool MinimumDisparity = 1;
+  double Tolerance = 5e-4;
+
+private:
+  vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;
+  void operator=(const vtkDelaunayDisparityFilter&) = delete;
+};
+
+#endif

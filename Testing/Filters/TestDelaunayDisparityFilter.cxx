@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayDisparityFilter.h"
+
+#include "DelaunayDisparity.h"
+#include "ViewBlocks.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSMPTools.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+
+using namespace freespace;
+
+namespace
+{
+
+std::vector<View> MakeViews()
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<View> views(4);
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    View& view = views[v];
+    view.name = "cluster" + std::to_string(v);
+    view.camera.K << 500, 0, 500, 0, 500, 500, 0, 0, 1;
+    view.camera.width = view.camera.height = 1000;
+    view.camera.R = Eigen::AngleAxisd(0.2 * v, Eigen::Vector3d::UnitY()).matrix();
+    view.camera.t = { 0, 0, 3 };
+    for (int i = 0; i < 300; ++i)
+    {
+      view.points.emplace_back(unit(random), unit(random), 0.1 * unit(random));
+      view.imagePoints.push_back(view.camera.Project(view.points.back()));
+    }
+  }
+  return views;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> Blocks(const std::vector<View>& views)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    SetNamedBlock(blocks, static_cast<unsigned int>(i), views[i].name, BlockFromView(views[i]));
+  }
+  return blocks;
+}
+
+// Keeps the text of a filter's error.
+void ListenToErrors(vtkObject* object, std::string* text)
+{
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(text);
+  command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
+    { static_cast<std::string*>(client)->append(static_cast<const char*>(message)); });
+  object->AddObserver(vtkCommand::ErrorEvent, command);
+}
+
+void ExpectSameMaps(const std::vector<DisparityMap>& a, const std::vector<DisparityMap>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    EXPECT_EQ(a[i].name, b[i].name);
+    EXPECT_EQ(a[i].points, b[i].points);
+    EXPECT_EQ(a[i].imagePoints, b[i].imagePoints);
+    EXPECT_EQ(a[i].sourceView, b[i].sourceView);
+    EXPECT_EQ(a[i].triangles, b[i].triangles);
+  }
+}
+
+}
+
+TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)
+{
+  const std::vector<View> views = MakeViews();
+  DelaunayDisparityOptions options;
+  options.tolerance = 0.002;
+  const std::vector<DisparityMap> expected = TriangulateViews(views, options);
+  EXPECT_NE(expected[0].points.size(), views[0].points.size()) << "nothing was inserted";
+  for (const int threads : { 3, 2, 1 }) // the pool can only be made smaller
+  {
+    vtkSMPTools::Initialize(threads);
+    vtkNew<vtkDelaunayDisparityFilter> filter;
+    filter->SetInputDataObject(Blocks(views));
+    filter->SetTolerance(0.002);
+    filter->Update();
+    ExpectSameMaps(MapsFromBlocks(filter->GetOutput()), expected);
+  }
+}
+
+TEST(DelaunayDisparityFilter, SettingsReachTheCore)
+{
+  const std::vector<View> views = MakeViews();
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(Blocks(views));
+  filter->MinimumDisparityOff();
+  filter->Update();
+  const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
+  ASSERT_EQ(maps.size(), views.size());
+  EXPECT_EQ(maps[2].points, views[2].points);
+  EXPECT_EQ(maps[2].sourceView, std::vector<int>(views[2].points.size(), 2));
+
+  std::ostringstream text;
+  filter->Print(text);
+  EXPECT_NE(text.str().find("MinimumDisparity: 0"), std::string::npos);
+  EXPECT_NE(text.str().find("Tolerance: 0.0005"), std::string::npos);
+}
+
+TEST(DelaunayDisparityFilter, ErrorNamesTheViewAndLeavesNothing)
+{
+  std::vector<View> views = MakeViews();
+  views[2].points.resize(2);
+  views[2].imagePoints.resize(2);
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(Blocks(views));
+  std::string error;
+  ListenToErrors(filter, &error);
+  filter->Update();
+  EXPECT_NE(error.find("'cluster2' has 2 usable features"), std::string::npos) << error;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
+}
+
+TEST(DelaunayDisparityFilter, EmptyInputGivesNoMaps)
+{
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(vtkSmartPointer<vtkMultiBlockDataSet>::New());
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
+}
