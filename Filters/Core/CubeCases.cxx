@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CubeCases.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace freespace
+{
+
+namespace
+{
+
+using Face = std::array<int, 4>;
+
+// The corners of each face, counter-clockwise from outside of the cube.
+std::array<Face, 6> MakeFaces()
+{
+  std::array<Face, 6> faces;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, up = 1 << axis;
+    faces[2 * axis] = { v, u | v, u, 0 };
+    faces[2 * axis + 1] = { up, up | u, up | u | v, up | v };
+  }
+  return faces;
+}
+
+int EdgeBetween(int a, int b)
+{
+  for (int edge = 0; edge < 12; ++edge)
+  {
+    const int begin = CubeCases::Begin(edge), end = begin | 1 << (edge >> 2);
+    if ((begin == a && end == b) || (begin == b && end == a))
+    {
+      return edge;
+    }
+  }
+  return -1;
+}
+
+bool ShareFace(const std::array<Face, 6>& faces, int edgeA, int edgeB)
+{
+  const auto holds = [](const Face& face, int edge)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      if (EdgeBetween(face[i], face[(i + 1) % 4]) == edge)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return std::any_of(faces.begin(), faces.end(),
+    [&](const Face& face) { return holds(face, edgeA) && holds(face, edgeB); });
+}
+
+// For each crossed edge the one that a loop goes on to: around each face, from where matter is
+// entered to where that run of matter is left.
+std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter)
+{
+  std::array<int, 12> next;
+  next.fill(-1);
+  for (const Face& face : faces)
+  {
+    const auto isMatter = [&](int i) { return (matter >> face[i % 4] & 1) != 0; };
+    for (int i = 0; i < 4; ++i)
+    {
+      if (!isMatter(i) && isMatter(i + 1))
+      {
+        int j = i + 1;
+        while (isMatter(j + 1))
+        {
+          ++j;
+        }
+        next[EdgeBetween(face[i], face[(i + 1) % 4])] = EdgeBetween(face[j % 4], face[(j + 1) % 4]);
+      }
+    }
+  }
+  return next;
+}
+
+// Turns the loop so that its fan keeps off the faces.
+void BringApexToFront(const std::array<Face, 6>& faces, CubeCases::Loop& loop)
+{
+  for (std::size_t turn = 0; turn < loop.size(); ++turn)
+  {
+    const bool clear = std::none_of(loop.begin() + 2, loop.end() - 1,
+      [&](int edge) { return ShareFace(faces, loop.front(), edge); });
+    if (clear)
+    {
+      return;
+    }
+    std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+  }
+}
+
+}
+
+CubeCases::CubeCases()
+{
+  const std::array<Face, 6> faces = MakeFaces();
+  for (int matter = 0; matter < 256; ++matter)
+  {
+    std::array<int, 12> next = Successors(faces, matter);
+    for (int edge = 0; edge < 12; ++edge)
+    {
+      Loop loop;
+      for (int at = edge; next[at] >= 0;)
+      {
+        loop.push_back(at);
+        at = std::exchange(next[at], -1);
+      }
+      if (!loop.empty())
+      {
+        BringApexToFront(faces, loop);
+        this->Cases[matter].push_back(loop);
+      }
+    }
+  }
+}
+
+const CubeCases& CubeCases::Get()
+{
+  static const CubeCases cases;
+  return cases;
+}
+
+}

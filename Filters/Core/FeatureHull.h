@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FeatureHull_h
+#define freespace_FeatureHull_h
+
+#include "ContourField.h"
+
+namespace freespace
+{
+
+/// The convex hull of all features, pushed out by a margin: outside of it everything is free
+/// (section 2.2: "the reconstructed surface should not extend beyond the convex hull").
+///
+/// It is kept as the intersection of half-spaces n.x <= h: the planes of the hull's facets, each
+/// moved out by the margin, and the supporting planes in 26 directions of a cube (faces, edges,
+/// corners), likewise moved, which cut off the long spikes that the facets alone would leave at
+/// sharp edges. So hulls without volume (coplanar, collinear or single points) are bounded and,
+/// with a margin, thick.
+class FeatureHull
+{
+public:
+  /// Points that are not finite are left out. Without any point everything is outside.
+  /// The margin is in the points' unit.
+  FeatureHull(const std::vector<Eigen::Vector3d>& points, double margin);
+
+  bool IsEmpty() const { return this->Normals.cols() == 0; }
+
+  /// Box of the pushed out hull; empty without points.
+  const Eigen::AlignedBox3d& Bounds() const { return this->Box; }
+
+  int NumberOfPlanes() const { return static_cast<int>(this->Normals.cols()); }
+  Eigen::Vector3d Normal(int plane) const { return this->Normals.col(plane); }
+
+  /// Signed distance to a plane, positive outside.
+  double Distance(int plane, const Eigen::Vector3d& point) const
+  {
+    return this->Normals.col(plane).dot(point) - this->Offsets[plane];
+  }
+
+  /// The plane that the point is furthest out of. Its distance is, inside, the exact distance to
+  /// the hull (negative) and, outside, no more than the true one. -1 without points.
+  int NearestPlane(const Eigen::Vector3d& point) const;
+
+  /// What a box holds, given the planes that are still open; `open` gets those left.
+  BoxContent Classify(
+    const Eigen::AlignedBox3d& box, const std::vector<int>& parent, std::vector<int>& open) const;
+
+private:
+  void AddPlane(const Eigen::Vector3d& normal, double offset);
+
+  Eigen::Matrix3Xd Normals; ///< unit length
+  Eigen::VectorXd Offsets;
+  Eigen::AlignedBox3d Box;
+};
+
+}
+
+#endif

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FreespaceUnion.h"
+
+#include "Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace freespace
+{
+
+using Eigen::Vector3d;
+
+namespace
+{
+
+void CheckTriangles(const DisparityMap& map)
+{
+  const int n = static_cast<int>(map.points.size());
+  for (const auto& triangle : map.triangles)
+  {
+    for (int corner : triangle)
+    {
+      if (corner < 0 || corner >= n)
+      {
+        throw Error("The map " + map.name + " has a triangle that names point " +
+          std::to_string(corner) + " of " + std::to_string(n) + ".");
+      }
+    }
+  }
+}
+
+}
+
+void FreespaceUnionOptions::Check() const
+{
+  if (this->minimumViews < 1)
+  {
+    throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
+      ", it must be at least 1.");
+  }
+  if (!(this->hullMargin >= 0) || !std::isfinite(this->hullMargin))
+  {
+    throw Error("The margin of the hull is " + std::to_string(this->hullMargin) +
+      ", it must be 0 or greater.");
+  }
+}
+
+FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
+  const FreespaceUnionOptions& options, const ParallelFor& parallelFor)
+  : Options(options)
+{
+  options.Check();
+  std::vector<Vector3d> features;
+  Eigen::AlignedBox3d box;
+  for (const DisparityMap& map : maps)
+  {
+    CheckTriangles(map);
+    for (const Vector3d& point : map.points)
+    {
+      if (point.allFinite())
+      {
+        features.push_back(point);
+        box.extend(point);
+      }
+    }
+  }
+  const double margin = features.empty() ? 0.0 : options.hullMargin * box.diagonal().norm();
+  // The hull is one task beside the views.
+  this->Views.resize(maps.size());
+  parallelFor(maps.size() + 1,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (i < maps.size())
+        {
+          this->Views[i] = std::make_unique<ViewFreespace>(maps[i]);
+        }
+        else
+        {
+          this->FeaturesHull = std::make_unique<FeatureHull>(features, margin);
+        }
+      }
+    });
+}
+
+FreespaceUnion::Winner FreespaceUnion::Evaluate(const Vector3d& point) const
+{
+  const int plane = this->Hull().NearestPlane(point);
+  if (plane < 0)
+  {
+    return { HUGE_VAL, Vector3d::Zero() };
+  }
+  const Winner hull = { this->Hull().Distance(plane, point), this->Hull().Normal(plane) };
+  std::vector<Winner> claims;
+  for (const auto& view : this->Views)
+  {
+    const ViewFreespace::Sample sample = view->At(point);
+    if (sample.triangle >= 0)
+    {
+      claims.push_back({ sample.value, sample.gradient });
+    }
+  }
+  const std::size_t k = static_cast<std::size_t>(this->Options.minimumViews);
+  if (claims.size() < k)
+  {
+    return hull;
+  }
+  std::nth_element(claims.begin(), claims.begin() + (k - 1), claims.end(),
+    [](const Winner& a, const Winner& b) { return a.value > b.value; });
+  return claims[k - 1].value > hull.value ? claims[k - 1] : hull;
+}
+
+double FreespaceUnion::Value(const Vector3d& point) const
+{
+  return this->Evaluate(point).value;
+}
+
+Vector3d FreespaceUnion::Gradient(const Vector3d& point) const
+{
+  return this->Evaluate(point).gradient;
+}
+
+FieldScope FreespaceUnion::Root() const
+{
+  FieldScope scope;
+  scope.views.resize(this->Views.size());
+  std::iota(scope.views.begin(), scope.views.end(), 0);
+  scope.planes.resize(this->Hull().NumberOfPlanes());
+  std::iota(scope.planes.begin(), scope.planes.end(), 0);
+  return scope;
+}
+
+bool FreespaceUnion::IsFree(const Vector3d& point) const
+{
+  int free = 0;
+  for (const auto& view : this->Views)
+  {
+    if (view->IsFree(point) && ++free == this->Options.minimumViews)
+    {
+      return true;
+    }
+  }
+  const int plane = this->Hull().NearestPlane(point);
+  return plane < 0 || this->Hull().Distance(plane, point) > 0;
+}
+
+bool FreespaceUnion::IsFree(const Vector3d& point, const FieldScope& scope) const
+{
+  if (this->Hull().IsEmpty())
+  {
+    return true;
+  }
+  int free = scope.freeViews;
+  int left = static_cast<int>(scope.views.size());
+  for (int view : scope.views)
+  {
+    if (free + left < this->Options.minimumViews)
+    {
+      break;
+    }
+    --left;
+    if (this->Views[view]->IsFree(point) && ++free >= this->Options.minimumViews)
+    {
+      return true;
+    }
+  }
+  return std::any_of(scope.planes.begin(), scope.planes.end(),
+    [&](int plane) { return this->Hull().Distance(plane, point) > 0; });
+}
+
+BoxContent FreespaceUnion::Classify(
+  const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const
+{
+  if (this->Hull().IsEmpty())
+  {
+    return BoxContent::Free;
+  }
+  const BoxContent hull = this->Hull().Classify(box, parent.planes, scope.planes);
+  scope.views.clear();
+  scope.freeViews = parent.freeViews;
+  if (hull == BoxContent::Free)
+  {
+    return BoxContent::Free;
+  }
+  for (int view : parent.views)
+  {
+    const BoxContent content = this->Views[view]->Classify(box);
+    if (content == BoxContent::Mixed)
+    {
+      scope.views.push_back(view);
+    }
+    else if (content == BoxContent::Free && ++scope.freeViews >= this->Options.minimumViews)
+    {
+      return BoxContent::Free;
+    }
+  }
+  const bool never =
+    scope.freeViews + static_cast<int>(scope.views.size()) < this->Options.minimumViews;
+  return never && hull == BoxContent::Matter ? BoxContent::Matter : BoxContent::Mixed;
+}
+
+SurfaceLabel FreespaceUnion::Label(const Vector3d& free, const Vector3d& matter) const
+{
+  // The view that opened the way: free on one side, not on the other, by as much as possible.
+  SurfaceLabel label;
+  double greatest = -HUGE_VAL;
+  const int plane = this->Hull().NearestPlane(free);
+  if (plane >= 0)
+  {
+    label.normal = this->Hull().Normal(plane);
+    const double outside = this->Hull().Distance(plane, free);
+    greatest = outside > 0 ? outside : greatest;
+  }
+  for (std::size_t i = 0; i < this->Views.size(); ++i)
+  {
+    const ViewFreespace::Sample front = this->Views[i]->At(free);
+    if (front.triangle < 0 || !(front.value > 0) || front.value <= greatest)
+    {
+      continue;
+    }
+    const ViewFreespace::Sample behind = this->Views[i]->At(matter);
+    if (behind.triangle < 0 || !(behind.value > 0))
+    {
+      greatest = front.value;
+      label.view = static_cast<int>(i);
+      label.kind = behind.triangle < 0 ? SurfaceKind::Wall : SurfaceKind::Feature;
+      // A wall's normal is not the map's: it points from the wall into the claimed side.
+      label.normal = behind.triangle < 0 ? Vector3d(free - matter).normalized()
+                                         : Vector3d(front.gradient.normalized());
+    }
+  }
+  return label;
+}
+
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FreespaceUnion_h
+#define freespace_FreespaceUnion_h
+
+#include "FeatureHull.h"
+#include "ParallelFor.h"
+#include "ViewFreespace.h"
+
+#include <memory>
+
+namespace freespace
+{
+
+/// How the free spaces of the views are joined.
+struct FreespaceUnionOptions
+{
+  int minimumViews = 1;     ///< so many views must agree that a point is free; >= 1; 1 is the paper
+  double hullMargin = 0.01; ///< by which the hull is pushed out, as a fraction of the diagonal of
+                            ///< the features' bounding box; >= 0; 0 is the paper
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// Phi' of section 2.2: the union of the views' free spaces and of the outside of the convex hull
+/// of all features.
+///
+/// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
+/// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
+/// point, the depth of the map less the depth of the point (with minimumViews = k the k-th
+/// greatest). It is continuous but for steps at the silhouette walls, where a view's claim ends.
+class FreespaceUnion : public ContourField
+{
+public:
+  /// Throws Error when an option is out of range, or a triangle names a point that is not there.
+  FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
+    const ParallelFor& parallelFor = SerialFor);
+
+  /// Infinite where there are no features at all: everything is free.
+  double Value(const Eigen::Vector3d& point) const;
+
+  /// Of Value.
+  Eigen::Vector3d Gradient(const Eigen::Vector3d& point) const;
+
+  /// The sign of Value, faster. Zero and all that is not a number are matter and free respectively.
+  bool IsFree(const Eigen::Vector3d& point) const;
+
+  bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
+  FieldScope Root() const override;
+  BoxContent Classify(
+    const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
+  SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter) const override;
+  bool IsThreadSafe() const override { return true; }
+
+  const FeatureHull& Hull() const { return *this->FeaturesHull; }
+  std::size_t NumberOfViews() const { return this->Views.size(); }
+  const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
+
+private:
+  struct Winner
+  {
+    double value;
+    Eigen::Vector3d gradient;
+  };
+  Winner Evaluate(const Eigen::Vector3d& point) const;
+
+  FreespaceUnionOptions Options;
+  std::vector<std::unique_ptr<ViewFreespace>> Views;
+  std::unique_ptr<FeatureHull> FeaturesHull;
+};
+
+}
+
+#endif

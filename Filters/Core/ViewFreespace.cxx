@@ -1,0 +1,519 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewFreespace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace freespace
+{
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr float Infinity = std::numeric_limits<float>::infinity();
+constexpr int LongestWalk = 48;
+constexpr std::int64_t MostCells = 1 << 23;
+constexpr double CellsPerTriangle = 3.0;
+
+// Relative room for the rounding between a cell's bounds and a triangle's disparity.
+constexpr double Slack = 1e-6;
+
+float RoundDown(double x)
+{
+  return std::nextafter(static_cast<float>(x), -Infinity);
+}
+
+float RoundUp(double x)
+{
+  return std::nextafter(static_cast<float>(x), Infinity);
+}
+
+}
+
+ViewFreespace::ViewFreespace(const DisparityMap& map)
+{
+  this->RasterFromWorld << map.camera.K * map.camera.R, map.camera.K * map.camera.t;
+  this->AddTriangles(map);
+  if (this->Triangles.empty())
+  {
+    return;
+  }
+  this->LinkNeighbors();
+  this->MakeRaster();
+  this->MakePyramid();
+}
+
+void ViewFreespace::AddTriangles(const DisparityMap& map)
+{
+  const std::size_t n = map.points.size();
+  std::vector<char> usable(n, 0);
+  this->Corners.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double depth = map.camera.Depth(map.points[i]);
+    usable[i] = map.imagePoints[i].allFinite() && std::isfinite(depth) && depth > 0;
+    this->Corners[i] = { map.imagePoints[i], 1.0 / depth };
+  }
+  Eigen::AlignedBox2d box;
+  for (std::size_t t = 0; t < map.triangles.size(); ++t)
+  {
+    std::array<int, 3> c = map.triangles[t];
+    if (!usable[c[0]] || !usable[c[1]] || !usable[c[2]])
+    {
+      continue;
+    }
+    Triangle triangle;
+    triangle.corner = c;
+    triangle.neighbor = { -1, -1, -1 };
+    triangle.id = static_cast<int>(t);
+    this->Triangles.push_back(triangle);
+    for (int i : c)
+    {
+      box.extend(this->Corners[i].position);
+    }
+  }
+  if (this->Triangles.empty())
+  {
+    return;
+  }
+  // Square cells, some to each triangle.
+  const Vector2d size = box.sizes().cwiseMax(1e-9 * (1.0 + box.sizes().maxCoeff()));
+  const double wanted = std::min<double>(
+    static_cast<double>(MostCells), CellsPerTriangle * this->Triangles.size() + 16.0);
+  const double side = std::max(std::sqrt(size.prod() / wanted), size.maxCoeff() / (0.5 * wanted));
+  this->Width = static_cast<int>(size.x() / side) + 1;
+  this->Height = static_cast<int>(size.y() / side) + 1;
+  const Eigen::RowVector4d depthRow = this->RasterFromWorld.row(2);
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->RasterFromWorld.row(axis) =
+      (this->RasterFromWorld.row(axis) - box.min()[axis] * depthRow) / side;
+  }
+  for (Corner& corner : this->Corners)
+  {
+    corner.position = (corner.position - box.min()) / side;
+  }
+  // Turn all triangles the same way; drop those without area.
+  const auto flat = [this](Triangle& t)
+  {
+    const Corner &a = this->Corners[t.corner[0]], &b = this->Corners[t.corner[1]],
+                 &c = this->Corners[t.corner[2]];
+    const Vector2d ab = b.position - a.position, ac = c.position - a.position;
+    const double area = ab.x() * ac.y() - ab.y() * ac.x();
+    const double ub = b.disparity - a.disparity, uc = c.disparity - a.disparity;
+    t.slopeX = (ub * ac.y() - uc * ab.y()) / area;
+    t.slopeY = (uc * ab.x() - ub * ac.x()) / area;
+    if (area < 0)
+    {
+      std::swap(t.corner[1], t.corner[2]);
+    }
+    return area == 0 || !std::isfinite(t.slopeX) || !std::isfinite(t.slopeY);
+  };
+  this->Triangles.erase(
+    std::remove_if(this->Triangles.begin(), this->Triangles.end(), flat), this->Triangles.end());
+}
+
+void ViewFreespace::LinkNeighbors()
+{
+  // Each edge from its smaller corner, with the side that saw it first.
+  std::unordered_map<std::uint64_t, std::uint64_t> open;
+  open.reserve(2 * this->Triangles.size());
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto [low, high] =
+        std::minmax(this->Triangles[t].corner[i], this->Triangles[t].corner[(i + 1) % 3]);
+      const std::uint64_t edge =
+        static_cast<std::uint64_t>(low) << 32 | static_cast<unsigned>(high);
+      const auto [other, isNew] = open.emplace(edge, 3 * t + i);
+      if (!isNew)
+      {
+        this->Triangles[t].neighbor[i] = static_cast<int>(other->second / 3);
+        this->Triangles[other->second / 3].neighbor[other->second % 3] = static_cast<int>(t);
+        open.erase(other);
+      }
+    }
+  }
+}
+
+// Calls visit(cell index) for each cell that a small convex polygon touches: band by band over the
+// rows of the raster, between the outermost points that the polygon's edges have in the band.
+template <typename Visit>
+void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& visit) const
+{
+  // A hair of room, so that a point is never rounded into a cell that its triangle was not told to.
+  const double room = 1e-9 * (this->Width + this->Height);
+  double bottom = HUGE_VAL, top = -HUGE_VAL;
+  for (int i = 0; i < corners; ++i)
+  {
+    bottom = std::min(bottom, polygon[i].y());
+    top = std::max(top, polygon[i].y());
+  }
+  const int first = std::clamp(static_cast<int>(bottom - room), 0, this->Height - 1);
+  const int last = std::clamp(static_cast<int>(top + room), 0, this->Height - 1);
+  for (int row = first; row <= last; ++row)
+  {
+    const double low = row - room, high = row + 1 + room;
+    double left = HUGE_VAL, right = -HUGE_VAL;
+    for (int i = 0; i < corners; ++i)
+    {
+      const Vector2d &a = polygon[i], &b = polygon[(i + 1) % corners];
+      if (std::max(a.y(), b.y()) < low || std::min(a.y(), b.y()) > high)
+      {
+        continue;
+      }
+      for (double y : { low, high, a.y(), b.y() })
+      {
+        const double s = a.y() == b.y() ? 0.0 : (y - a.y()) / (b.y() - a.y());
+        const double inside = std::clamp(s, 0.0, 1.0);
+        const double x = a.x() + inside * (b.x() - a.x());
+        const double at = a.y() + inside * (b.y() - a.y());
+        if (at >= low - room && at <= high + room)
+        {
+          left = std::min(left, x);
+          right = std::max(right, x);
+        }
+      }
+      if (a.y() == b.y())
+      {
+        left = std::min({ left, a.x(), b.x() });
+        right = std::max({ right, a.x(), b.x() });
+      }
+    }
+    if (left <= right)
+    {
+      const int from = std::clamp(static_cast<int>(left - room), 0, this->Width - 1);
+      const int to = std::clamp(static_cast<int>(right + room), 0, this->Width - 1);
+      for (int column = from; column <= to; ++column)
+      {
+        visit(static_cast<std::size_t>(row) * this->Width + column, column, row);
+      }
+    }
+  }
+}
+
+void ViewFreespace::MakeRaster()
+{
+  const std::size_t cells = static_cast<std::size_t>(this->Width) * this->Height;
+  this->Cells.assign(cells, { Infinity, -Infinity, -1 });
+  std::vector<std::pair<std::size_t, int>> touches;
+  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  {
+    const Triangle& triangle = this->Triangles[t];
+    Vector2d polygon[3];
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Corner& corner = this->Corners[triangle.corner[i]];
+      polygon[i] = corner.position;
+      least = std::min(least, corner.disparity);
+      most = std::max(most, corner.disparity);
+    }
+    const double reach = 0.5 * (std::abs(triangle.slopeX) + std::abs(triangle.slopeY));
+    this->VisitCells(polygon, 3,
+      [&](std::size_t index, int column, int row)
+      {
+        Cell& cell = this->Cells[index];
+        const Corner& corner = this->Corners[triangle.corner[0]];
+        const double center = corner.disparity +
+          triangle.slopeX * (column + 0.5 - corner.position.x()) +
+          triangle.slopeY * (row + 0.5 - corner.position.y());
+        const double low = std::clamp(center - reach, least, most);
+        const double high = std::clamp(center + reach, least, most);
+        cell.low = std::min(cell.low, RoundDown(low * (1 - Slack)));
+        cell.high = std::max(cell.high, RoundUp(high * (1 + Slack)));
+        const bool holdsCenter =
+          this->Turn(triangle.corner[0], triangle.corner[1], column + 0.5, row + 0.5) >= 0 &&
+          this->Turn(triangle.corner[1], triangle.corner[2], column + 0.5, row + 0.5) >= 0 &&
+          this->Turn(triangle.corner[2], triangle.corner[0], column + 0.5, row + 0.5) >= 0;
+        if (cell.triangle < 0 || holdsCenter)
+        {
+          cell.triangle = static_cast<int>(t);
+        }
+        touches.emplace_back(index, static_cast<int>(t));
+      });
+  }
+  // Where the border of the map passes, a cell is not wholly covered.
+  for (const Triangle& triangle : this->Triangles)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      if (triangle.neighbor[i] < 0)
+      {
+        const Vector2d edge[2] = { this->Corners[triangle.corner[i]].position,
+          this->Corners[triangle.corner[(i + 1) % 3]].position };
+        this->VisitCells(
+          edge, 2, [&](std::size_t index, int, int) { this->Cells[index].high = Infinity; });
+      }
+    }
+  }
+  for (Cell& cell : this->Cells)
+  {
+    cell.high = cell.triangle < 0 ? Infinity : cell.high;
+  }
+  this->ListBegin.assign(cells + 1, 0);
+  for (const auto& touch : touches)
+  {
+    ++this->ListBegin[touch.first + 1];
+  }
+  for (std::size_t i = 0; i < cells; ++i)
+  {
+    this->ListBegin[i + 1] += this->ListBegin[i];
+  }
+  this->List.resize(touches.size());
+  std::vector<int> next(this->ListBegin.begin(), this->ListBegin.end() - 1);
+  for (const auto& touch : touches)
+  {
+    this->List[next[touch.first]++] = touch.second;
+  }
+}
+
+void ViewFreespace::MakePyramid()
+{
+  Level level{ this->Width, this->Height, {} };
+  for (const Cell& cell : this->Cells)
+  {
+    level.bounds.emplace_back(cell.low, cell.high);
+  }
+  while (true)
+  {
+    this->Pyramid.push_back(level);
+    if (level.width == 1 && level.height == 1)
+    {
+      return;
+    }
+    Level coarse{ (level.width + 1) / 2, (level.height + 1) / 2, {} };
+    // What lies beyond the raster is not covered.
+    coarse.bounds.assign(
+      static_cast<std::size_t>(coarse.width) * coarse.height, { Infinity, -Infinity });
+    for (int y = 0; y < level.height; ++y)
+    {
+      for (int x = 0; x < level.width; ++x)
+      {
+        const auto& from = level.bounds[static_cast<std::size_t>(y) * level.width + x];
+        auto& to = coarse.bounds[static_cast<std::size_t>(y / 2) * coarse.width + x / 2];
+        to.first = std::min(to.first, from.first);
+        to.second = std::max(to.second, from.second);
+      }
+    }
+    level = std::move(coarse);
+  }
+}
+
+bool ViewFreespace::Project(const Vector3d& point, Pixel& pixel) const
+{
+  const Vector3d q = this->RasterFromWorld * point.homogeneous();
+  pixel = { q.x() / q.z(), q.y() / q.z(), q.z() };
+  return q.z() > 0 && pixel.x >= 0 && pixel.y >= 0 && pixel.x < this->Width &&
+    pixel.y < this->Height;
+}
+
+// Twice the area of the triangle from an edge to a point. The edge is always taken from its smaller
+// corner, so that the two triangles beside it see exactly opposite values.
+double ViewFreespace::Turn(int a, int b, double x, double y) const
+{
+  const bool reversed = a > b;
+  const Vector2d& p = this->Corners[reversed ? b : a].position;
+  const Vector2d& q = this->Corners[reversed ? a : b].position;
+  const double turn = (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
+  return reversed ? -turn : turn;
+}
+
+// Walks over the edges that have the point beyond them. True when it came to an end: at the point's
+// triangle, or at the map's border (found = -1).
+bool ViewFreespace::Locate(double x, double y, int start, int& found) const
+{
+  int at = start, from = -1;
+  for (int step = 0; step < LongestWalk; ++step)
+  {
+    const Triangle& triangle = this->Triangles[at];
+    int next = at;
+    for (int i = 0; i < 3; ++i)
+    {
+      const int neighbor = triangle.neighbor[i];
+      if ((neighbor != from || neighbor < 0) &&
+        this->Turn(triangle.corner[i], triangle.corner[(i + 1) % 3], x, y) < 0)
+      {
+        next = neighbor;
+        break;
+      }
+    }
+    if (next == at || next < 0)
+    {
+      found = next;
+      return true;
+    }
+    from = at;
+    at = next;
+  }
+  return false;
+}
+
+// The triangle in the cell's list that holds the point, or -1.
+int ViewFreespace::LocateInCell(double x, double y) const
+{
+  const std::size_t cell =
+    static_cast<std::size_t>(static_cast<int>(y)) * this->Width + static_cast<int>(x);
+  for (int i = this->ListBegin[cell]; i < this->ListBegin[cell + 1]; ++i)
+  {
+    const auto& corner = this->Triangles[this->List[i]].corner;
+    if (this->Turn(corner[0], corner[1], x, y) >= 0 &&
+      this->Turn(corner[1], corner[2], x, y) >= 0 && this->Turn(corner[2], corner[0], x, y) >= 0)
+    {
+      return this->List[i];
+    }
+  }
+  return -1;
+}
+
+int ViewFreespace::Find(const Pixel& pixel) const
+{
+  const Cell& cell = this->Cells[static_cast<std::size_t>(static_cast<int>(pixel.y)) * this->Width +
+    static_cast<int>(pixel.x)];
+  if (cell.triangle < 0)
+  {
+    return -1;
+  }
+  int found = -1;
+  if (this->Locate(pixel.x, pixel.y, cell.triangle, found) && found >= 0)
+  {
+    return found;
+  }
+  // Out over a border, which in a map with holes or bays proves nothing; or a walk too long. A cell
+  // without border is covered: there the walk's start stands in, should rounding lose the point.
+  found = this->LocateInCell(pixel.x, pixel.y);
+  return found < 0 && cell.high < Infinity ? cell.triangle : found;
+}
+
+double ViewFreespace::Disparity(const Triangle& triangle, double x, double y) const
+{
+  const Corner& a = this->Corners[triangle.corner[0]];
+  const double u = this->Corners[triangle.corner[1]].disparity;
+  const double v = this->Corners[triangle.corner[2]].disparity;
+  const double disparity =
+    a.disparity + triangle.slopeX * (x - a.position.x()) + triangle.slopeY * (y - a.position.y());
+  return std::clamp(disparity, std::min({ a.disparity, u, v }), std::max({ a.disparity, u, v }));
+}
+
+ViewFreespace::Sample ViewFreespace::At(const Vector3d& point) const
+{
+  Sample sample;
+  Pixel pixel;
+  if (!this->Project(point, pixel))
+  {
+    return sample;
+  }
+  const int found = this->Find(pixel);
+  if (found < 0)
+  {
+    return sample;
+  }
+  const Triangle& triangle = this->Triangles[found];
+  const double disparity = this->Disparity(triangle, pixel.x, pixel.y);
+  sample.triangle = triangle.id;
+  sample.value = 1.0 / disparity - pixel.depth;
+  // The map's depth is 1 / disparity, and disparity is linear in the pixel.
+  const auto row = [this](int i) { return this->RasterFromWorld.row(i).head<3>().transpose(); };
+  const Vector3d pixelX = (row(0) - pixel.x * row(2)) / pixel.depth;
+  const Vector3d pixelY = (row(1) - pixel.y * row(2)) / pixel.depth;
+  sample.gradient =
+    -(triangle.slopeX * pixelX + triangle.slopeY * pixelY) / (disparity * disparity) - row(2);
+  return sample;
+}
+
+bool ViewFreespace::IsFree(const Vector3d& point) const
+{
+  Pixel pixel;
+  if (!this->Project(point, pixel))
+  {
+    return false;
+  }
+  const Cell& cell = this->Cells[static_cast<std::size_t>(static_cast<int>(pixel.y)) * this->Width +
+    static_cast<int>(pixel.x)];
+  if (cell.high * pixel.depth < 1.0)
+  {
+    return true;
+  }
+  if (cell.low * pixel.depth > 1.0)
+  {
+    return false;
+  }
+  const int found = this->Find(pixel);
+  return found >= 0 &&
+    this->Disparity(this->Triangles[found], pixel.x, pixel.y) * pixel.depth < 1.0;
+}
+
+BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const
+{
+  if (this->Triangles.empty())
+  {
+    return BoxContent::Matter;
+  }
+  const Vector3d half = 0.5 * box.sizes();
+  const Vector3d center = this->RasterFromWorld * box.center().homogeneous();
+  const double depthReach =
+    this->RasterFromWorld.row(2).head<3>().cwiseAbs().dot(half) + 1e-12 * std::abs(center.z());
+  const double nearest = center.z() - depthReach;
+  const double furthest = center.z() + depthReach;
+  if (furthest <= 0)
+  {
+    return BoxContent::Matter;
+  }
+  if (nearest <= 1e-3 * furthest)
+  {
+    return BoxContent::Mixed;
+  }
+  // How far the box reaches in the image from its centre's pixel: the centre's own perspective is
+  // taken out first, so that what remains is of the box's size.
+  int low[2], high[2];
+  const int size[2] = { this->Width, this->Height };
+  bool whole = true;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double pixel = center[axis] / center.z();
+    const double reach = (this->RasterFromWorld.row(axis) - pixel * this->RasterFromWorld.row(2))
+                           .head<3>()
+                           .cwiseAbs()
+                           .dot(half) /
+        nearest +
+      1e-9 * (1 + std::abs(pixel));
+    if (pixel + reach < 0 || pixel - reach >= size[axis])
+    {
+      return BoxContent::Matter;
+    }
+    whole = whole && pixel - reach >= 0 && pixel + reach < size[axis];
+    low[axis] = static_cast<int>(std::max(pixel - reach, 0.0));
+    high[axis] = static_cast<int>(std::min(pixel + reach, size[axis] - 1.0));
+  }
+  // The level at which the box's image spans a few cells.
+  std::size_t level = 0;
+  while (level + 1 < this->Pyramid.size() &&
+    std::max((high[0] >> level) - (low[0] >> level), (high[1] >> level) - (low[1] >> level)) > 3)
+  {
+    ++level;
+  }
+  const Level& cells = this->Pyramid[level];
+  float least = Infinity, most = whole ? -Infinity : Infinity;
+  for (int y = low[1] >> level; y <= high[1] >> level; ++y)
+  {
+    for (int x = low[0] >> level; x <= high[0] >> level; ++x)
+    {
+      const auto& bounds = cells.bounds[static_cast<std::size_t>(y) * cells.width + x];
+      least = std::min(least, bounds.first);
+      most = std::max(most, bounds.second);
+    }
+  }
+  if (most * furthest < 1.0)
+  {
+    return BoxContent::Free;
+  }
+  return least * nearest > 1.0 ? BoxContent::Matter : BoxContent::Mixed;
+}
+
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_ViewFreespace_h
+#define freespace_ViewFreespace_h
+
+#include "ContourField.h"
+#include "View.h"
+
+#include <cstdint>
+
+namespace freespace
+{
+
+/// The star-shaped free space of one view: the points in front of its triangulated disparity map.
+///
+/// A point is found in the map in constant time: a raster over the image keeps for each cell one
+/// triangle that touches it, from which a short bounded walk leads to the point's triangle. Every
+/// edge is judged from its same end by both of its triangles, so that a point on a shared edge is
+/// never lost between them. The raster also keeps bounds of the disparity in each cell, which
+/// decide most points before any triangle is looked at, and a pyramid of them answers for whole
+/// boxes.
+///
+/// Triangles that touch a point which is not finite or not in front of the camera, and triangles
+/// without area in the image, are left out. Points that are behind the camera, or outside of all
+/// triangles in the image, are not claimed by the view.
+class ViewFreespace
+{
+public:
+  explicit ViewFreespace(const DisparityMap& map);
+
+  /// What the view knows of a point.
+  struct Sample
+  {
+    int triangle = -1;  ///< of the map, below the point; -1: the view claims nothing
+    double value = 0.0; ///< depth of the map less depth of the point; positive: free
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero(); ///< of the value
+  };
+  Sample At(const Eigen::Vector3d& point) const;
+
+  /// The sign of At alone: whether the view says that the point is free.
+  bool IsFree(const Eigen::Vector3d& point) const;
+
+  /// Free: the view says so for all the box; Matter: for no point of it. Conservative.
+  BoxContent Classify(const Eigen::AlignedBox3d& box) const;
+
+  std::size_t NumberOfTriangles() const { return this->Triangles.size(); }
+
+private:
+  /// In raster coordinates (a cell is 1 wide, the raster begins at 0).
+  struct Triangle
+  {
+    std::array<int, 3> corner;   ///< positively turned
+    std::array<int, 3> neighbor; ///< beyond the edge from corner i to corner i + 1; -1: the border
+    double slopeX, slopeY;       ///< of the disparity
+    int id;                      ///< in the map
+  };
+  struct Corner
+  {
+    Eigen::Vector2d position;
+    double disparity;
+  };
+  struct Cell
+  {
+    float low;    ///< a bound below all disparities in the cell; infinite where no triangle is
+    float high;   ///< a bound above; infinite where not all of the cell is covered
+    int triangle; ///< one that touches the cell, or -1
+  };
+  struct Level
+  {
+    int width, height;
+    std::vector<std::pair<float, float>> bounds;
+  };
+  struct Pixel
+  {
+    double x, y, depth;
+  };
+
+  bool Project(const Eigen::Vector3d& point, Pixel& pixel) const;
+  bool Locate(double x, double y, int start, int& found) const;
+  int LocateInCell(double x, double y) const;
+  int Find(const Pixel& pixel) const;
+  double Disparity(const Triangle& triangle, double x, double y) const;
+  double Turn(int a, int b, double x, double y) const;
+
+  void AddTriangles(const DisparityMap& map);
+  void LinkNeighbors();
+  void MakeRaster();
+  template <typename Visit>
+  void VisitCells(const Eigen::Vector2d* polygon, int corners, Visit&& visit) const;
+  void MakePyramid();
+
+  Eigen::Matrix<double, 3, 4> RasterFromWorld; ///< homogeneous; its last row is the depth
+  std::vector<Corner> Corners;
+  std::vector<Triangle> Triangles;
+  int Width = 0, Height = 0; ///< of the raster
+  std::vector<Cell> Cells;
+  std::vector<int> ListBegin, List; ///< all triangles that touch each cell
+  std::vector<Level> Pyramid;       ///< from the raster up
+};
+
+}
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkBisectionContourFilter
+ * @brief the boundary of an implicit function's matter, by marching cubes with bisection
+ *
+ * Section 2.2 and figure 6 of the paper: wherever two neighbouring points of a lattice differ in
+ * the sign of the function, the transition is located by bisection and becomes a vertex. Only the
+ * sign counts, so functions with steps, such as vtkFreespaceUnion, are contoured exactly.
+ *
+ * Negative is matter (VTK's inside); zero counts as matter. What lies outside of the bounds counts
+ * as free. For a vtkFreespaceUnion without a transform, most of the lattice is decided by whole
+ * boxes; any other function is asked at every lattice point, on one thread, since VTK's functions
+ * do not promise more.
+ *
+ * Output: a vtkPolyData of triangles, closed, oriented with normals out of the matter, 2-manifold,
+ * in the unit of the function, points in double precision. Vertices keep the distance Clearance
+ * from lattice points, so that no triangle vanishes. It is the same for any number of threads.
+ *
+ * | cell array | type          | meaning                                                         |
+ * |------------|---------------|-----------------------------------------------------------------|
+ * | View       | int           | index of the view that carved the triangle, -1 for the hull     |
+ * | Kind       | unsigned char | 0 a feature triangle, 1 a silhouette wall, 2 hull or the bounds |
+ *
+ * The arrays are there for a vtkFreespaceUnion only. Without a function, with bounds that are not a
+ * finite box, or with a setting out of its range, the filter tells an error and its output is
+ * empty. A function without any matter is no error: the output is empty. So it is after an abort.
+ */
+#ifndef vtkBisectionContourFilter_h
+#define vtkBisectionContourFilter_h
+
+#include "vtkFreespaceFiltersModule.h" // for the export macro
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for the function
+
+class vtkImplicitFunction;
+
+class VTKFREESPACEFILTERS_EXPORT vtkBisectionContourFilter : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkBisectionContourFilter* New();
+  vtkTypeMacro(vtkBisectionContourFilter, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The function whose zero set is the surface.
+   */
+  virtual void SetImplicitFunction(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetImplicitFunction();
+  ///@}
+
+  ///@{
+  /**
+   * Where to look. An uninitialized box (1, -1, ...), the default, takes the bounds of a
+   * vtkFreespaceUnion's hull; for other functions bounds must be given.
+   */
+  vtkSetVector6Macro(Bounds, double);
+  vtkGetVector6Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many cells the lattice has along the longest side of the bounds. Default 256.
+   */
+  vtkSetMacro(Cells, int);
+  vtkGetMacro(Cells, int);
+  ///@}
+
+  ///@{
+  /**
+   * The tolerance of the bisection, as a fraction of a cell. Default 0.001.
+   */
+  vtkSetMacro(Tolerance, double);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The least distance of a vertex from the lattice's points, as a fraction of a cell. Default
+   * 0.01.
+   */
+  vtkSetMacro(Clearance, double);
+  vtkGetMacro(Clearance, double);
+  ///@}
+
+  /**
+   * Covers the function.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkBisectionContourFilter();
+  ~vtkBisectionContourFilter() override;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  vtkSmartPointer<vtkImplicitFunction> ImplicitFunction;
+  double Bounds[6] = { 1, -1, 1, -1, 1, -1 };
+  int Cells = 256;
+  double Tolerance = 1e-3;
+  double Clearance = 0.01;
+
+private:
+  vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;
+  void operator=(const vtkBisectionContourFilter&) = delete;
+};
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkFreespaceUnion
+ * @brief the union of the free spaces of triangulated views, as an implicit function
+ *
+ * Phi' of section 2.2 of the paper. A point is free when it lies, seen from some view, in front of
+ * the view's triangulated disparity map, or when it lies outside of the convex hull of all
+ * features.
+ *
+ * **Sign**: negative in matter, positive in free space, zero on the boundary; the gradient points
+ * out of the matter. **Value**: a length, in the unit of the camera model: the greater of the
+ * signed distance to the hull and, over the views that claim the point, the depth of the map less
+ * the depth of the point. It is continuous but for steps where the claim of a view ends, at the
+ * silhouette walls through the border of its map. A point that falls outside of all triangles of a
+ * view, or behind it, is not claimed by the view.
+ *
+ * Taken literally, the hull cuts away all matter that lies on it and has no thickness there, such
+ * as a board under the scene: HullMargin pushes the hull out.
+ *
+ * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or
+ * from a pipeline by SetInputConnection. Features that are not finite are left out, and so are
+ * triangles that touch one or a point that is not in front of its camera. Where there is no feature
+ * at all, everything is free. A block that is not a map is an error: everything is then free too,
+ * and IsValid tells.
+ *
+ * The inner structures are built at the first evaluation after a change. Evaluation is safe from
+ * several threads. Maps that were changed in place are noticed by GetMTime, which every VTK filter
+ * asks before it executes; who evaluates by hand calls Update first.
+ *
+ * Usable wherever VTK takes a vtkImplicitFunction: vtkSampleFunction, vtkCutter, vtkClipPolyData.
+ * vtkBisectionContourFilter finds its boundary without asking most of the volume.
+ */
+#ifndef vtkFreespaceUnion_h
+#define vtkFreespaceUnion_h
+
+#include "vtkFreespaceFiltersModule.h" // for the export macro
+#include "vtkImplicitFunction.h"
+
+#include <memory> // for the inner structures
+
+class vtkAlgorithmOutput;
+class vtkMultiBlockDataSet;
+namespace freespace
+{
+class FreespaceUnion;
+}
+
+class VTKFREESPACEFILTERS_EXPORT vtkFreespaceUnion : public vtkImplicitFunction
+{
+public:
+  static vtkFreespaceUnion* New();
+  vtkTypeMacro(vtkFreespaceUnion, vtkImplicitFunction);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The disparity maps, one block per view. Takes the place of a connection.
+   */
+  virtual void SetMaps(vtkMultiBlockDataSet* maps);
+  vtkMultiBlockDataSet* GetMaps();
+  void SetInputData(vtkMultiBlockDataSet* maps) { this->SetMaps(maps); }
+  ///@}
+
+  /**
+   * Takes the maps from a pipeline, which is brought up to date when the function is.
+   */
+  virtual void SetInputConnection(vtkAlgorithmOutput* output);
+
+  ///@{
+  /**
+   * So many views must agree that a point is free. 1 is the paper. Default 1.
+   */
+  vtkSetMacro(MinimumViews, int);
+  vtkGetMacro(MinimumViews, int);
+  ///@}
+
+  ///@{
+  /**
+   * By how much the hull is pushed out, as a fraction of the diagonal of the features' bounding
+   * box. 0 is the paper. Default 0.01.
+   */
+  vtkSetMacro(HullMargin, double);
+  vtkGetMacro(HullMargin, double);
+  ///@}
+
+  ///@{
+  /**
+   * The function and its gradient at a point.
+   */
+  using Superclass::EvaluateFunction;
+  double EvaluateFunction(double x[3]) override;
+  void EvaluateGradient(double x[3], double g[3]) override;
+  ///@}
+
+  /**
+   * Brings the maps and the inner structures up to date.
+   */
+  void Update();
+
+  /**
+   * Whether the maps could be used, after an Update.
+   */
+  bool IsValid();
+
+  /**
+   * The box of the pushed out hull, after an Update: outside of it all is free. Without features an
+   * uninitialized box (1, -1, ...).
+   */
+  void GetBounds(double bounds[6]);
+
+  /**
+   * Covers the maps, their blocks and the pipeline they come from.
+   */
+  vtkMTimeType GetMTime() override;
+
+#ifndef __VTK_WRAP__
+  /**
+   * The core's function, up to date; null where the maps are not valid. For the classes of this
+   * module.
+   */
+  std::shared_ptr<const freespace::FreespaceUnion> GetCore();
+#endif
+
+protected:
+  vtkFreespaceUnion();
+  ~vtkFreespaceUnion() override;
+
+  int MinimumViews = 1;
+  double HullMargin = 0.01;
+
+private:
+  vtkFreespaceUnion(const vtkFreespaceUnion&) = delete;
+  void operator=(const vtkFreespaceUnion&) = delete;
+
+  struct Internals;
+  const freespace::FreespaceUnion* Built();
+  void Build();
+
+  std::unique_ptr<Internals> Inner;
+};
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BisectionContour.h"
+
+#include "FreespaceUnion.h"
+#include "MeshTopology.h"
+#include "RandomMaps.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+using namespace freespace;
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class Ball : public ContourField
+{
+public:
+  bool IsFree(const Vector3d& point, const FieldScope&) const override
+  {
+    return point.norm() > 1.0;
+  }
+};
+
+// Matter or free by a coin for each lattice point: every case of the cubes, side by side.
+class Noise : public ContourField
+{
+public:
+  explicit Noise(unsigned int seed)
+    : Seed(seed)
+  {
+  }
+  bool IsFree(const Vector3d& point, const FieldScope&) const override
+  {
+    const auto cell = [](double x)
+    { return static_cast<std::uint64_t>(std::floor(x * 16 + 1000)); };
+    std::uint64_t h = this->Seed;
+    for (double x : { point.x(), point.y(), point.z() })
+    {
+      h = (h ^ cell(x)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return h >> 11 & 1;
+  }
+
+private:
+  std::uint64_t Seed;
+};
+
+AlignedBox3d Cube(double half)
+{
+  return AlignedBox3d(Vector3d::Constant(-half), Vector3d::Constant(half));
+}
+
+ContourOptions Cells(int cells)
+{
+  ContourOptions options;
+  options.cells = cells;
+  return options;
+}
+
+void ThreeThreads(
+  std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)
+{
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i)
+  {
+    threads.emplace_back([&body, count, i] { body(count * i / 3, count * (i + 1) / 3); });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+}
+
+}
+
+TEST(BisectionContour, BallHasItsVolumeAndItsVerticesOnTheSphere)
+{
+  ContourOptions options = Cells(40);
+  options.tolerance = 1e-5;
+  const ContourMesh mesh = BisectionContour(Ball(), Cube(1.3), options);
+  EXPECT_EQ(TopologyFaults(mesh), "");
+  EXPECT_NEAR(EnclosedVolume(mesh), 4.0 / 3.0 * M_PI, 0.02);
+  const double spacing = 2.6 / 39;
+  for (const Vector3d& p : mesh.points)
+  {
+    EXPECT_NEAR(p.norm(), 1.0, 0.011 * spacing);
+  }
+}
+
+TEST(BisectionContour, MatterThatReachesTheBoundsIsClosedThere)
+{
+  const ContourMesh mesh = BisectionContour(Ball(), Cube(0.5), Cells(20));
+  EXPECT_EQ(TopologyFaults(mesh), "");
+  // A cube, but for its edges and corners, which the cells cut off.
+  EXPECT_NEAR(EnclosedVolume(mesh), 1.0, 0.02);
+  for (const Vector3d& p : mesh.points)
+  {
+    EXPECT_NEAR(p.cwiseAbs().maxCoeff(), 0.5, 0.001);
+  }
+}
+
+TEST(BisectionContour, NoiseIsManifold)
+{
+  for (unsigned int seed = 1; seed < 20; ++seed)
+  {
+    const ContourMesh mesh = BisectionContour(Noise(seed), Cube(0.6), Cells(21));
+    EXPECT_EQ(TopologyFaults(mesh), "") << "seed " << seed;
+    EXPECT_GT(mesh.triangles.size(), 5000u);
+    EXPECT_GT(EnclosedVolume(mesh), 0);
+  }
+}
+
+TEST(BisectionContour, UnionByBoxesIsTheSameAsByPoints)
+{
+  // The same union, but no box is ever classified.
+  class PointByPoint : public ContourField
+  {
+  public:
+    explicit PointByPoint(const FreespaceUnion& phi)
+      : Phi(phi)
+    {
+    }
+    bool IsFree(const Vector3d& point, const FieldScope&) const override
+    {
+      return this->Phi.IsFree(point);
+    }
+    const FreespaceUnion& Phi;
+  };
+  for (unsigned int seed = 0; seed < 20; ++seed)
+  {
+    FreespaceUnionOptions unionOptions;
+    unionOptions.minimumViews = 1 + seed % 2;
+    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 5), unionOptions);
+    const ContourOptions options = Cells(30 + seed);
+    const ContourMesh mesh = BisectionContour(phi, phi.Hull().Bounds(), options);
+    const ContourMesh plain = BisectionContour(PointByPoint(phi), phi.Hull().Bounds(), options);
+    EXPECT_EQ(TopologyFaults(mesh), "") << "seed " << seed;
+    EXPECT_EQ(mesh.points, plain.points);
+    EXPECT_EQ(mesh.triangles, plain.triangles);
+    EXPECT_GT(mesh.triangles.size(), 100u);
+    EXPECT_GT(EnclosedVolume(mesh), 0);
+    const ContourMesh threaded =
+      BisectionContour(phi, phi.Hull().Bounds(), options, {}, ThreeThreads);
+    EXPECT_EQ(mesh.points, threaded.points);
+    EXPECT_EQ(mesh.triangles, threaded.triangles);
+    EXPECT_EQ(mesh.view, threaded.view);
+  }
+}
+
+TEST(BisectionContour, TrianglesKnowWhatTheyAre)
+{
+  const std::vector<DisparityMap> maps = RandomMaps(4, 1);
+  const FreespaceUnion phi(maps, {});
+  const ContourMesh mesh = BisectionContour(phi, phi.Hull().Bounds(), Cells(60));
+  int count[3] = { 0, 0, 0 };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    ++count[static_cast<int>(mesh.kind[t])];
+    EXPECT_EQ(mesh.view[t], mesh.kind[t] == SurfaceKind::Hull ? -1 : 0);
+  }
+  EXPECT_GT(count[0], 100); // the map's triangles
+  EXPECT_GT(count[1], 100); // the walls under its border, down to the margin of the hull
+  EXPECT_GT(count[2], 100); // the hull
+}
+
+TEST(BisectionContour, AwkwardInput)
+{
+  EXPECT_TRUE(BisectionContour(Ball(), AlignedBox3d(), {}).points.empty());
+  const AlignedBox3d away(Vector3d(5, 5, 5), Vector3d(6, 6, 6));
+  EXPECT_TRUE(BisectionContour(Ball(), away, Cells(10)).points.empty());
+  EXPECT_THROW(BisectionContour(Ball(), Cube(NAN), {}), Error);
+  EXPECT_THROW(BisectionContour(Ball(), Cube(HUGE_VAL), {}), Error);
+  EXPECT_THROW(BisectionContour(Ball(), Cube(0), {}), Error);
+  EXPECT_THROW(BisectionContour(Ball(), Cube(1), Cells(1)), Error);
+  // Flat bounds have a lattice of one cell across; nothing has thickness there.
+  const AlignedBox3d flat(Vector3d(-1, -1, 0), Vector3d(1, 1, 0));
+  EXPECT_EQ(TopologyFaults(BisectionContour(Ball(), flat, Cells(20))), "");
+}
+
+TEST(BisectionContour, StopsOnRequest)
+{
+  int calls = 0;
+  const Progress stopAtHalf(
+    [&calls](double fraction)
+    {
+      ++calls;
+      return fraction < 0.5;
+    });
+  EXPECT_THROW(BisectionContour(Ball(), Cube(1.3), Cells(100), stopAtHalf), Aborted);
+  EXPECT_GT(calls, 3);
+}

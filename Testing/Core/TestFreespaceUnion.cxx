@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FreespaceUnion.h"
+
+#include "Error.h"
+#include "RandomMaps.h"
+
+#include <gtest/gtest.h>
+
+using namespace freespace;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+// What a view says of a point, straight from the definition: the depth at which the ray through the
+// point meets the space triangle that its pixel falls into, less the point's depth.
+bool BruteForceClaim(const DisparityMap& map, const Vector3d& point, double& value)
+{
+  if (!(map.camera.Depth(point) > 0))
+  {
+    return false;
+  }
+  const Vector3d eye = map.camera.Center(), direction = point - eye;
+  for (const auto& t : map.triangles)
+  {
+    Eigen::Matrix3d m;
+    const Vector3d &a = map.points[t[0]], &b = map.points[t[1]], &c = map.points[t[2]];
+    m << b - a, c - a, -direction;
+    const Vector3d x = m.fullPivLu().solve(eye - a);
+    if (x[0] >= 0 && x[1] >= 0 && x[0] + x[1] <= 1 && x[2] > 0)
+    {
+      value = (x[2] - 1.0) * map.camera.Depth(point);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Outside of the hull: some plane through three points has all points on one side, and this beyond.
+double BruteForceHull(const std::vector<Vector3d>& points, const Vector3d& x)
+{
+  double greatest = -HUGE_VAL;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < points.size(); ++j)
+    {
+      for (std::size_t k = j + 1; k < points.size(); ++k)
+      {
+        Vector3d n = (points[j] - points[i]).cross(points[k] - points[i]).normalized();
+        double low = 0, high = 0;
+        for (const Vector3d& p : points)
+        {
+          low = std::min(low, n.dot(p - points[i]));
+          high = std::max(high, n.dot(p - points[i]));
+        }
+        if (low > -1e-12 || high < 1e-12)
+        {
+          n = high > 1e-12 ? Vector3d(-n) : n;
+          greatest = std::max(greatest, n.dot(x - points[i]));
+        }
+      }
+    }
+  }
+  return greatest;
+}
+
+std::vector<Vector3d> Features(const std::vector<DisparityMap>& maps)
+{
+  std::vector<Vector3d> all;
+  for (const DisparityMap& map : maps)
+  {
+    all.insert(all.end(), map.points.begin(), map.points.end());
+  }
+  return all;
+}
+
+FreespaceUnionOptions Options(int minimumViews, double hullMargin)
+{
+  FreespaceUnionOptions options;
+  options.minimumViews = minimumViews;
+  options.hullMargin = hullMargin;
+  return options;
+}
+
+}
+
+TEST(FeatureHull, AgreesWithBruteForce)
+{
+  for (int seed = 0; seed < 10; ++seed)
+  {
+    std::srand(seed);
+    std::vector<Vector3d> points(14);
+    std::generate(points.begin(), points.end(), [] { return Vector3d::Random(); });
+    const FeatureHull hull(points, 0.0);
+    for (int i = 0; i < 300; ++i)
+    {
+      const Vector3d x = 1.2 * Vector3d::Random();
+      const double truth = BruteForceHull(points, x);
+      const double value = hull.Distance(hull.NearestPlane(x), x);
+      if (truth < 0)
+      {
+        EXPECT_NEAR(value, truth, 1e-9);
+      }
+      else
+      {
+        EXPECT_GE(value, truth - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(FeatureHull, LeavingOutInnerPointsChangesNothing)
+{
+  std::srand(3);
+  std::vector<Vector3d> points(5000);
+  std::generate(points.begin(), points.end(), [] { return Vector3d::Random(); });
+  const FeatureHull hull(points, 0.0);
+  double touched = -1;
+  for (const Vector3d& p : points)
+  {
+    const double distance = hull.Distance(hull.NearestPlane(p), p);
+    EXPECT_LE(distance, 1e-12);
+    touched = std::max(touched, distance);
+  }
+  for (int plane = 0; plane < hull.NumberOfPlanes(); ++plane)
+  {
+    double nearest = -1;
+    for (const Vector3d& p : points)
+    {
+      nearest = std::max(nearest, hull.Distance(plane, p));
+    }
+    EXPECT_NEAR(nearest, 0.0, 1e-12);
+  }
+  EXPECT_NEAR(touched, 0.0, 1e-12);
+}
+
+TEST(FeatureHull, WithoutVolumeTheMarginGivesOne)
+{
+  const Vector3d o(1, 2, 3), u(1, 0.5, 0), v(0, 1, 1);
+  for (const std::vector<Vector3d>& points :
+    { std::vector<Vector3d>{ o }, std::vector<Vector3d>{ o, o + u },
+      std::vector<Vector3d>{ o, o + u, o + 2 * u }, std::vector<Vector3d>{ o, o + u, o + v },
+      std::vector<Vector3d>{ o, o + u, o + v, o + u + v },
+      std::vector<Vector3d>{ o, o, o, Vector3d(NAN, 0, 0) } })
+  {
+    const FeatureHull thick(points, 0.1), thin(points, 0.0);
+    for (const Vector3d& p : points)
+    {
+      if (p.allFinite())
+      {
+        EXPECT_NEAR(thick.Distance(thick.NearestPlane(p), p), -0.1, 1e-9);
+        EXPECT_NEAR(thin.Distance(thin.NearestPlane(p), p), 0.0, 1e-9);
+      }
+    }
+    const Vector3d away = thick.Bounds().max() + Vector3d::Constant(1e-6);
+    EXPECT_GT(thick.Distance(thick.NearestPlane(away), away), 0);
+    EXPECT_LT(thick.Bounds().diagonal().norm(), 5);
+  }
+  EXPECT_TRUE(FeatureHull({}, 0.1).IsEmpty());
+  EXPECT_TRUE(FeatureHull({ Vector3d(NAN, 0, 0) }, 0.1).IsEmpty());
+}
+
+TEST(FreespaceUnion, AgreesWithBruteForce)
+{
+  for (unsigned int seed = 0; seed < 25; ++seed)
+  {
+    const std::vector<DisparityMap> maps = RandomMaps(seed, 1 + seed % 4);
+    const std::vector<Vector3d> features = Features(maps);
+    const int k = 1 + seed % 2;
+    const FreespaceUnion phi(maps, Options(k, 0.0));
+    int claimed = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+      const Vector3d x = 1.6 * Vector3d::Random();
+      std::vector<double> claims;
+      for (const DisparityMap& map : maps)
+      {
+        double value;
+        if (BruteForceClaim(map, x, value))
+        {
+          claims.push_back(value);
+        }
+      }
+      claimed += !claims.empty();
+      std::sort(claims.rbegin(), claims.rend());
+      const double hull = phi.Hull().Distance(phi.Hull().NearestPlane(x), x);
+      const double truth =
+        static_cast<int>(claims.size()) < k ? hull : std::max(hull, claims[k - 1]);
+      EXPECT_NEAR(phi.Value(x), truth, 1e-9) << "seed " << seed;
+      EXPECT_EQ(phi.IsFree(x), phi.Value(x) > 0);
+      EXPECT_EQ(phi.IsFree(x, phi.Root()), phi.Value(x) > 0);
+    }
+    EXPECT_GT(claimed, 100);
+  }
+}
+
+TEST(FreespaceUnion, GradientIsTheSlopeOfTheValue)
+{
+  const FreespaceUnion phi(RandomMaps(7, 3), Options(1, 0.01));
+  int tried = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    const Vector3d x = 1.2 * Vector3d::Random();
+    Vector3d slope;
+    const double h = 1e-6;
+    bool kink = false;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vector3d step = h * Vector3d::Unit(axis);
+      const double ahead = phi.Value(x + step), here = phi.Value(x), behind = phi.Value(x - step);
+      slope[axis] = (ahead - behind) / (2 * h);
+      kink = kink || std::abs(ahead + behind - 2 * here) > 1e-9;
+    }
+    if (!kink)
+    {
+      ++tried;
+      EXPECT_LT((phi.Gradient(x) - slope).norm(), 1e-4 * (1 + slope.norm()));
+    }
+  }
+  EXPECT_GT(tried, 200);
+}
+
+TEST(FreespaceUnion, BoxesAgreeWithTheirPoints)
+{
+  int decided = 0;
+  for (unsigned int seed = 100; seed < 140; ++seed)
+  {
+    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 4), Options(1 + seed % 2, 0.01));
+    for (int i = 0; i < 100; ++i)
+    {
+      const Vector3d center = 1.5 * Vector3d::Random();
+      const Vector3d half = (0.3 / (1 + i % 10)) * Vector3d(1, 0.5, 0.7);
+      const Eigen::AlignedBox3d outer(center - half, center + half);
+      FieldScope scope, inner;
+      const BoxContent content = phi.Classify(outer, phi.Root(), scope);
+      // A part of the box, asked within the scope of the whole.
+      const Eigen::AlignedBox3d part(center - 0.5 * half, center + 0.3 * half);
+      const BoxContent partContent =
+        content == BoxContent::Mixed ? phi.Classify(part, scope, inner) : content;
+      decided += partContent != BoxContent::Mixed;
+      for (int j = 0; j < 50; ++j)
+      {
+        const Vector3d x = outer.sample(), y = part.sample();
+        if (content == BoxContent::Mixed)
+        {
+          ASSERT_EQ(phi.IsFree(x, scope), phi.IsFree(x));
+        }
+        else
+        {
+          ASSERT_EQ(phi.IsFree(x), content == BoxContent::Free);
+        }
+        if (partContent != BoxContent::Mixed)
+        {
+          ASSERT_EQ(phi.IsFree(y), partContent == BoxContent::Free);
+        }
+        else
+        {
+          ASSERT_EQ(phi.IsFree(y, inner), phi.IsFree(y));
+        }
+      }
+    }
+  }
+  EXPECT_GT(decided, 800);
+}
+
+TEST(FreespaceUnion, AwkwardInput)
+{
+  const FreespaceUnion empty({}, {});
+  EXPECT_TRUE(empty.IsFree(Vector3d::Zero()));
+  EXPECT_EQ(empty.Value(Vector3d::Zero()), HUGE_VAL);
+
+  DisparityMap map = RandomMaps(1, 1)[0];
+  const Vector3d behind = map.camera.Center() + 2 * (map.camera.Center() - map.points[0]);
+  map.points.push_back({ NAN, 0, 0 });
+  map.imagePoints.push_back({ 50, 40 });
+  map.points.push_back(behind);
+  map.imagePoints.push_back({ 50, 40 });
+  const int nan = static_cast<int>(map.points.size()) - 2;
+  const std::size_t sound = map.triangles.size();
+  map.triangles.push_back({ 0, 1, nan });     // not a number
+  map.triangles.push_back({ 0, 1, nan + 1 }); // behind the camera
+  map.triangles.push_back({ 0, 1, 1 });       // without area
+  const FreespaceUnion phi({ map }, {});
+  EXPECT_EQ(phi.ViewAt(0).NumberOfTriangles(), sound);
+  EXPECT_TRUE(phi.IsFree(Vector3d(NAN, 0, 0)));
+  EXPECT_EQ(phi.Value(Vector3d(NAN, 0, 0)), HUGE_VAL);
+  EXPECT_FALSE(phi.ViewAt(0).IsFree(map.camera.Center()));
+
+  map.triangles.push_back({ 0, 1, 9999 });
+  EXPECT_THROW(FreespaceUnion({ map }, {}), Error);
+  EXPECT_THROW(FreespaceUnion({}, Options(0, 0.01)), Error);
+  EXPECT_THROW(FreespaceUnion({}, Options(1, -0.01)), Error);
+  EXPECT_THROW(FreespaceUnion({}, Options(1, NAN)), Error);
+}

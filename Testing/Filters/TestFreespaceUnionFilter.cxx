@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../Core/RandomMaps.h"
+#include "ViewBlocks.h"
+#include "vtkBisectionContourFilter.h"
+#include "vtkFreespaceUnion.h"
+
+#include <vtkCellData.h>
+#include <vtkClipPolyData.h>
+#include <vtkCommand.h>
+#include <vtkCutter.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSampleFunction.h>
+#include <vtkSphere.h>
+#include <vtkSphereSource.h>
+#include <vtkTransform.h>
+#include <vtkTrivialProducer.h>
+
+#include <gtest/gtest.h>
+
+using namespace freespace;
+
+namespace
+{
+
+vtkSmartPointer<vtkMultiBlockDataSet> MakeMaps(unsigned int seed, int count)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (const DisparityMap& map : RandomMaps(seed, count))
+  {
+    SetNamedBlock(blocks, blocks->GetNumberOfBlocks(), map.name, BlockFromMap(map));
+  }
+  return blocks;
+}
+
+// Counts errors and keeps them off the terminal.
+class Errors : public vtkCommand
+{
+public:
+  static Errors* New() { return new Errors; }
+  void Execute(vtkObject*, unsigned long, void* text) override
+  {
+    ++this->Count;
+    this->Last = static_cast<const char*>(text);
+  }
+  int Count = 0;
+  std::string Last;
+};
+
+}
+
+TEST(vtkFreespaceUnion, ServesSampleFunctionCutterAndClipper)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  double bounds[6];
+  phi->GetBounds(bounds);
+
+  vtkNew<vtkSampleFunction> sample;
+  sample->SetImplicitFunction(phi);
+  sample->SetSampleDimensions(12, 12, 12);
+  sample->SetModelBounds(bounds);
+  sample->ComputeNormalsOff();
+  sample->Update();
+  vtkDataArray* values = sample->GetOutput()->GetPointData()->GetScalars();
+  int matter = 0;
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    const double value = phi->EvaluateFunction(sample->GetOutput()->GetPoint(i));
+    EXPECT_EQ(values->GetTuple1(i), value);
+    matter += value < 0;
+  }
+  EXPECT_GT(matter, 50);
+
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.8);
+  sphere->SetThetaResolution(60);
+  sphere->SetPhiResolution(60);
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputConnection(sphere->GetOutputPort());
+  clip->SetClipFunction(phi);
+  clip->Update();
+  ASSERT_GT(clip->GetOutput()->GetNumberOfCells(), 10);
+  ASSERT_LT(clip->GetOutput()->GetNumberOfCells(), sphere->GetOutput()->GetNumberOfCells());
+
+  vtkNew<vtkCutter> cut;
+  cut->SetInputConnection(sphere->GetOutputPort());
+  cut->SetCutFunction(phi);
+  cut->Update();
+  EXPECT_GT(cut->GetOutput()->GetNumberOfCells(), 10);
+}
+
+TEST(vtkFreespaceUnion, FollowsItsMaps)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
+  vtkNew<vtkTrivialProducer> producer;
+  producer->SetOutput(maps);
+  phi->SetInputConnection(producer->GetOutputPort());
+  double first[6], second[6];
+  phi->GetBounds(first);
+  EXPECT_LT(first[0], first[1]);
+  vtkMTimeType time = phi->GetMTime();
+  EXPECT_EQ(time, phi->GetMTime());
+  maps->GetBlock(0)->Modified();
+  maps->Modified();
+  EXPECT_GT(phi->GetMTime(), time);
+
+  phi->SetMaps(maps);
+  time = phi->GetMTime();
+  vtkPolyData::SafeDownCast(maps->GetBlock(1))->GetPoints()->SetPoint(0, 50, 0, 0);
+  maps->GetBlock(1)->Modified();
+  EXPECT_GT(phi->GetMTime(), time);
+  phi->GetBounds(second);
+  EXPECT_GT(second[1], 49);
+  time = phi->GetMTime();
+  phi->SetHullMargin(0.5);
+  EXPECT_GT(phi->GetMTime(), time);
+}
+
+TEST(vtkFreespaceUnion, TellsWhatIsWrong)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  vtkNew<Errors> errors;
+  phi->AddObserver(vtkCommand::ErrorEvent, errors);
+  double x[3] = { 0, 0, 0 };
+  EXPECT_GT(phi->EvaluateFunction(x), 0);
+  EXPECT_EQ(errors->Count, 1);
+  EXPECT_GT(phi->EvaluateFunction(x), 0);
+  EXPECT_EQ(errors->Count, 1); // once, not for each point
+
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
+  maps->GetBlock(1)->GetFieldData()->RemoveArray("CameraIntrinsics");
+  phi->SetMaps(maps);
+  EXPECT_FALSE(phi->IsValid());
+  EXPECT_NE(errors->Last.find("map1"), std::string::npos) << errors->Last;
+  phi->SetMaps(MakeMaps(3, 2));
+  phi->SetMinimumViews(0);
+  EXPECT_FALSE(phi->IsValid());
+  phi->SetMinimumViews(1);
+  EXPECT_TRUE(phi->IsValid());
+}
+
+TEST(vtkBisectionContourFilter, ContoursAUnion)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(40);
+  contour->Update();
+  vtkPolyData* output = contour->GetOutput();
+  ASSERT_GT(output->GetNumberOfCells(), 1000);
+  ASSERT_TRUE(output->GetCellData()->GetArray("View"));
+  ASSERT_TRUE(output->GetCellData()->GetArray("Kind"));
+  // The sign changes around the vertices, but for some at sharp edges.
+  double bounds[6];
+  phi->GetBounds(bounds);
+  const double step = 0.01 * (bounds[1] - bounds[0]);
+  int tried = 0, mixed = 0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); i += 7)
+  {
+    int free = 0;
+    for (int j = 0; j < 6; ++j)
+    {
+      double p[3];
+      output->GetPoint(i, p);
+      p[j / 2] += j % 2 ? step : -step;
+      free += phi->EvaluateFunction(p) > 0;
+    }
+    ++tried;
+    mixed += free > 0 && free < 6;
+  }
+  EXPECT_GT(mixed, 0.95 * tried);
+  const vtkIdType before = output->GetNumberOfCells();
+  contour->SetCells(60);
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 1.8 * before);
+  phi->SetHullMargin(0.2);
+  contour->Update();
+  double b[6];
+  phi->GetBounds(b);
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0], 0.02 * (b[1] - b[0]));
+}
+
+TEST(vtkBisectionContourFilter, ContoursAnyFunction)
+{
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(2);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(sphere);
+  contour->SetBounds(-3, 3, -3, 3, -3, 3);
+  contour->SetCells(30);
+  contour->Update();
+  ASSERT_GT(contour->GetOutput()->GetNumberOfPoints(), 500);
+  for (vtkIdType i = 0; i < contour->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    contour->GetOutput()->GetPoint(i, p);
+    EXPECT_NEAR(vtkMath::Norm(p), 2.0, 0.003);
+  }
+  EXPECT_FALSE(contour->GetOutput()->GetCellData()->GetArray("View"));
+  sphere->SetRadius(1);
+  contour->Update();
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[1], 1.0, 0.01);
+}
+
+TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  double b[6];
+  phi->GetBounds(b);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(-5, 0, 0); // maps the world to the function
+  phi->SetTransform(transform);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(30);
+  contour->SetBounds(b[0] + 5, b[1] + 5, b[2], b[3], b[4], b[5]);
+  contour->Update();
+  ASSERT_GT(contour->GetOutput()->GetNumberOfCells(), 500);
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0] + 5, 0.02 * (b[1] - b[0]));
+}
+
+TEST(vtkBisectionContourFilter, TellsWhatIsWrong)
+{
+  vtkNew<vtkBisectionContourFilter> contour;
+  vtkNew<Errors> errors;
+  contour->AddObserver(vtkCommand::ErrorEvent, errors);
+  contour->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  contour->Update();
+  EXPECT_GE(errors->Count, 1);
+  vtkNew<vtkSphere> sphere;
+  contour->SetImplicitFunction(sphere);
+  errors->Count = 0;
+  contour->Update(); // no bounds
+  EXPECT_GE(errors->Count, 1);
+  contour->SetBounds(-1, 1, -1, 1, -1, 1);
+  contour->SetCells(0);
+  errors->Count = 0;
+  contour->Update();
+  EXPECT_GE(errors->Count, 1);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+}
