@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "ViewBlocks.h"
+#include "WholeFile.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -13,9 +14,7 @@
 #include <vtkXMLMultiBlockDataReader.h>
 #include <vtkXMLUtilities.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 vtkStandardNewMacro(vtkViewBlocksReader);
@@ -27,19 +26,6 @@ namespace
 void CountError(vtkObject*, unsigned long, void* count, void*)
 {
   ++*static_cast<int*>(count);
-}
-
-// A truncated file may still parse, and VTK's reader is silent where warnings are switched off: look
-// for the end of the file.
-bool IsWhole(const std::string& fileName)
-{
-  std::ifstream file(fileName, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  const std::streamoff tail = std::min<std::streamoff>(size, 32);
-  std::string end(static_cast<std::size_t>(tail), '\0');
-  file.seekg(size - tail);
-  file.read(&end[0], tail);
-  return file && end.find("</VTKFile>") != std::string::npos;
 }
 
 // The files of the blocks that a .vtm names, relative to it.
@@ -58,29 +44,17 @@ void CollectBlockFiles(vtkXMLDataElement* element, std::vector<std::string>& fil
 
 void CheckFilesAreWhole(const std::string& fileName)
 {
-  if (!std::filesystem::is_regular_file(fileName))
-  {
-    throw freespace::Error("Cannot read " + fileName + ": there is no such file.");
-  }
+  freespace::CheckWholeVTKFile(fileName);
   vtkSmartPointer<vtkXMLDataElement> root;
-  if (IsWhole(fileName))
-  {
-    root.TakeReference(vtkXMLUtilities::ReadElementFromFile(fileName.c_str()));
-  }
-  if (!root)
-  {
-    throw freespace::Error("Cannot read " + fileName + ": it is truncated or not a .vtm file.");
-  }
+  root.TakeReference(vtkXMLUtilities::ReadElementFromFile(fileName.c_str()));
   std::vector<std::string> files;
-  CollectBlockFiles(root, files);
+  if (root)
+  {
+    CollectBlockFiles(root, files);
+  }
   for (const std::string& file : files)
   {
-    const auto path = std::filesystem::path(fileName).parent_path() / file;
-    if (!IsWhole(path.string()))
-    {
-      throw freespace::Error("Cannot read " + fileName + ": its file " + file
-        + " is missing or truncated.");
-    }
+    freespace::CheckWholeVTKFile((std::filesystem::path(fileName).parent_path() / file).string());
   }
 }
 
@@ -97,8 +71,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
   reader->SetParserErrorObserver(onError);
   reader->SetFileName(fileName.c_str());
   reader->Update();
-  vtkSmartPointer<vtkMultiBlockDataSet> blocks
-    = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  vtkSmartPointer<vtkMultiBlockDataSet> blocks =
+    vtkMultiBlockDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   if (errors > 0 || !blocks || blocks->GetNumberOfBlocks() == 0)
   {
     throw freespace::Error(

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From photographs to a surface: ReconstructScene SCENE.json OUT.ply [CELLS]
+#include <vtkBisectionContourFilter.h>
+#include <vtkDelaunayDisparityFilter.h>
+#include <vtkEdgeStereoReader.h>
+#include <vtkFeatureSupportFilter.h>
+#include <vtkFreespaceUnion.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkSurfaceWriter.h>
+
+#include <cstdlib>
+#include <iostream>
+
+int main(int argc, char* argv[])
+{
+  if (argc < 3)
+  {
+    std::cerr << "usage: ReconstructScene SCENE.json OUT.ply [CELLS]\n";
+    return 2;
+  }
+  vtkNew<vtkEdgeStereoReader> stereo;
+  stereo->SetFileName(argv[1]);
+  vtkNew<vtkFeatureSupportFilter> support;
+  support->SetInputConnection(stereo->GetOutputPort());
+  vtkNew<vtkDelaunayDisparityFilter> maps;
+  maps->SetInputConnection(support->GetOutputPort());
+  maps->Update();
+  std::cout << maps->GetOutput()->GetNumberOfBlocks() << " disparity maps, "
+            << maps->GetOutput()->GetNumberOfPoints() << " points\n";
+
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(maps->GetOutput());
+  vtkNew<vtkBisectionContourFilter> surface;
+  surface->SetImplicitFunction(phi);
+  surface->SetCells(argc > 3 ? std::atoi(argv[3]) : 256);
+  vtkNew<vtkSurfaceWriter> writer;
+  writer->SetInputConnection(surface->GetOutputPort());
+  writer->SetFileName(argv[2]);
+  return writer->Write() ? 0 : 1;
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSurfaceReader.h"
+
+#include "Error.h"
+#include "WholeFile.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkExecutive.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkObjectFactory.h>
+#include <vtkPLYReader.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+#include <vtkTriangleFilter.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <filesystem>
+
+vtkStandardNewMacro(vtkSurfaceReader);
+
+namespace
+{
+
+// What the inner reader finds wrong is told below, in a sentence that names the file.
+void Ignore(vtkObject*, unsigned long, void*, void*) {}
+
+template <typename Reader>
+vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& fileName)
+{
+  auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(fileName.c_str());
+  vtkNew<vtkCallbackCommand> silence;
+  silence->SetCallback(Ignore);
+  reader->AddObserver(vtkCommand::ErrorEvent, silence);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silence);
+  return reader;
+}
+
+vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
+{
+  const std::string ending = std::filesystem::path(fileName).extension().string();
+  if (ending == ".ply")
+  {
+    freespace::CheckWholePLY(fileName);
+    return MakeReader<vtkPLYReader>(fileName);
+  }
+  if (ending == ".stl")
+  {
+    freespace::CheckWholeSTL(fileName);
+    return MakeReader<vtkSTLReader>(fileName);
+  }
+  if (ending == ".obj")
+  {
+    return MakeReader<vtkOBJReader>(fileName);
+  }
+  if (ending == ".vtp")
+  {
+    freespace::CheckWholeVTKFile(fileName);
+    return MakeReader<vtkXMLPolyDataReader>(fileName);
+  }
+  throw freespace::Error(
+    "Cannot read '" + fileName + "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
+}
+
+}
+
+vtkSurfaceReader::vtkSurfaceReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+int vtkSurfaceReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  try
+  {
+    const auto reader = ReaderByEnding(this->FileName);
+    vtkNew<vtkTriangleFilter> triangles;
+    triangles->SetInputConnection(reader->GetOutputPort());
+    triangles->PassVertsOff();
+    triangles->PassLinesOff();
+    triangles->Update();
+    if (triangles->GetOutput()->GetNumberOfPolys() == 0)
+    {
+      throw freespace::Error(
+        "Cannot read " + this->FileName + ": it is truncated, or holds no surface.");
+    }
+    output->ShallowCopy(triangles->GetOutput());
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+void vtkSurfaceReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+}

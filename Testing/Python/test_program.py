@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The batch program: its stages, its options, and one sentence for every bad input."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ['FREESPACE_PROGRAM']
+SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
+COMMANDS = ('reconstruct', 'clusters', 'stereo', 'triangulate', 'contour', 'render')
+
+
+def run(*arguments, cwd=None):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=300)
+
+
+class WithFolder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix='freespace-test-'))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def succeed(self, *arguments):
+        result = run(*arguments, cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def small_scene(self, **changes):
+        """A scene of one cluster, in a folder of its own that tests may damage."""
+        scene = json.loads((SCENE / 'scene.json').read_text())
+        scene['clusters'] = scene['clusters'][:1]
+        scene.update(changes)
+        for name in ('images', 'sparse'):
+            shutil.copytree(SCENE / name, self.folder / name)
+        for image in (self.folder / 'images').iterdir():
+            if not image.name.startswith('cluster1'):
+                image.unlink()
+        path = self.folder / 'scene.json'
+        path.write_text(json.dumps(scene))
+        return path
+
+
+class TestUsage(unittest.TestCase):
+    def test_version(self):
+        self.assertRegex(run('--version').stdout, r'freespace \d+\.\d+\.\d+')
+
+    def test_each_command_has_help_with_an_example(self):
+        for command in COMMANDS:
+            with self.subTest(command=command):
+                result = run(command, '--help')
+                self.assertEqual(result.returncode, 0)
+                self.assertIn(f'freespace {command} ', result.stdout.split('Example')[-1])
+
+    def test_no_command_and_unknown_option(self):
+        for arguments in ((), ('stereo', '--no-such-option'), ('no-such-command',)):
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertNotEqual(result.returncode, 0)
+                self.assertTrue(result.stderr.startswith('freespace: '), result.stderr)
+
+
+class TestStages(WithFolder):
+    def test_stages_alone_are_the_whole(self):
+        scene = self.small_scene()
+        self.succeed('stereo', scene, '-o', 'features.vtm')
+        self.succeed('triangulate', 'features.vtm', '-o', 'maps.vtm')
+        self.succeed('contour', 'maps.vtm', '-o', 'stages.ply', '--cells', 48)
+        self.succeed('reconstruct', scene, '-o', 'whole.ply', '--cells', 48, '--picture', 'whole.png')
+        self.assertEqual((self.folder / 'stages.ply').read_bytes(), (self.folder / 'whole.ply').read_bytes())
+        self.assertEqual((self.folder / 'whole.png').read_bytes()[:8], b'\x89PNG\r\n\x1a\n')
+        self.succeed('render', 'whole.ply', '-o', 'view.png', '--scene', scene, '--view', 'cluster1_c.jpg')
+        self.succeed('render', 'whole.ply', '-o', 'novel.png', '--model', SCENE / 'novel', '--view', 'novel1')
+
+    def test_threads_and_config_repeat_a_run_exactly(self):
+        scene = self.small_scene()
+        self.succeed('--threads', 1, '--save-config', 'run.ini', 'reconstruct', scene, '-o', 'a.ply', '--cells', 40)
+        first = (self.folder / 'a.ply').read_bytes()
+        self.succeed('--threads', 2, 'reconstruct', scene, '-o', 'b.ply', '--cells', 40)
+        self.assertEqual((self.folder / 'b.ply').read_bytes(), first)
+        (self.folder / 'a.ply').unlink()
+        self.succeed('--config', 'run.ini')
+        self.assertEqual((self.folder / 'a.ply').read_bytes(), first)
+
+    def test_every_format(self):
+        self.succeed('stereo', self.small_scene(), '-o', 'features.vtm')
+        self.succeed('triangulate', 'features.vtm', '-o', 'maps.vtm')
+        for ending in ('ply', 'stl', 'obj', 'vtp'):
+            self.succeed('contour', 'maps.vtm', '-o', f'mesh.{ending}', '--cells', 24)
+            self.succeed('render', f'mesh.{ending}', '-o', f'{ending}.png')
+
+    def test_quiet_and_log(self):
+        scene = self.small_scene()
+        self.assertEqual(self.succeed('--quiet', 'stereo', scene, '-o', 'features.vtm').stderr, '')
+        log = self.succeed('stereo', scene, '-o', 'features.vtm').stderr
+        self.assertIn('stereo: ', log)
+        self.assertNotIn('\r', log)
+
+
+class TestBadInput(WithFolder):
+    def expect_error(self, mentions, *arguments, output=None):
+        before = sorted(os.listdir(self.folder))
+        result = run(*arguments, cwd=self.folder)
+        self.assertGreater(result.returncode, 0, f'{result.returncode} {result.stderr}')
+        lines = [line for line in result.stderr.splitlines() if line.startswith('freespace: ')]
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertTrue(result.stderr.rstrip().endswith(lines[0]), result.stderr)
+        self.assertIn(mentions, lines[0])
+        self.assertEqual(sorted(os.listdir(self.folder)), before, 'something half-written is left')
+
+    def stereo_fails(self, mentions, scene):
+        self.expect_error(mentions, 'stereo', scene, '-o', 'features.vtm')
+
+    def test_missing_scene(self):
+        self.stereo_fails('none.json', 'none.json')
+
+    def test_broken_json(self):
+        (self.folder / 'scene.json').write_text('{ "images": ')
+        self.stereo_fails('scene.json', 'scene.json')
+
+    def test_unknown_key(self):
+        self.stereo_fails('colour', self.small_scene(colour='red'))
+
+    def test_missing_image(self):
+        scene = self.small_scene()
+        (self.folder / 'images' / 'cluster1_l.jpg').unlink()
+        self.stereo_fails('cluster1_l.jpg', scene)
+
+    def test_unreadable_image(self):
+        scene = self.small_scene()
+        (self.folder / 'images' / 'cluster1_l.jpg').write_text('not a picture')
+        self.stereo_fails('cluster1_l.jpg', scene)
+
+    def test_image_of_another_size(self):
+        scene = self.small_scene()
+        cameras = self.folder / 'sparse' / 'cameras.txt'
+        cameras.write_text(cameras.read_text().replace('1134 756', '1134 755'))
+        self.stereo_fails('cluster1_', scene)
+
+    def test_unsupported_camera_model(self):
+        scene = self.small_scene()
+        cameras = self.folder / 'sparse' / 'cameras.txt'
+        cameras.write_text(cameras.read_text().replace('PINHOLE', 'FISHEYE'))
+        self.stereo_fails('FISHEYE', scene)
+
+    def test_unknown_image_in_a_cluster(self):
+        triplets = [['x.jpg', 'cluster1_c.jpg', 'cluster1_r.jpg']]
+        scene = self.small_scene(
+            clusters=[{'name': 'a', 'reference': 'cluster1_c.jpg', 'triplets': triplets}])
+        self.stereo_fails('x.jpg', scene)
+
+    def test_triplet_without_overlap(self):
+        scene = self.small_scene()
+        images = self.folder / 'sparse' / 'images.txt'
+        lines = images.read_text().splitlines()
+        for i, line in enumerate(lines):
+            if line.endswith('cluster1_l.jpg'):
+                fields = line.split()
+                fields[1:8] = ['0', '0', '1', '0', '0', '0', '-50']   # far away, looking elsewhere
+                lines[i] = ' '.join(fields)
+        images.write_text('\n'.join(lines) + '\n')
+        self.stereo_fails('cluster1', scene)
+
+    def test_truncated_features(self):
+        scene = self.small_scene()
+        run('--quiet', 'stereo', scene, '-o', 'features.vtm', cwd=self.folder)
+        block = next((self.folder / 'features').iterdir())
+        block.write_bytes(block.read_bytes()[:1000])
+        self.expect_error('features_0.vtp', 'triangulate', 'features.vtm', '-o', 'maps.vtm')
+        (self.folder / 'features.vtm').write_text('<VTKFile')
+        self.expect_error('features.vtm', 'triangulate', 'features.vtm', '-o', 'maps.vtm')
+
+    def test_truncated_binary_model(self):
+        scene = self.small_scene()
+        for name in ('cameras', 'images', 'points3D'):
+            (self.folder / 'sparse' / f'{name}.bin').write_bytes(b'\x05\0\0\0\0\0\0\0\1')
+        self.stereo_fails('cameras.bin', scene)
+
+    def test_output_folder_that_is_not_there(self):
+        self.expect_error('nowhere', 'stereo', self.small_scene(), '-o', 'nowhere/features.vtm')
+
+    def test_surface_of_unknown_ending(self):
+        self.expect_error('mesh.xyz', 'reconstruct', self.small_scene(), '-o', 'mesh.xyz')
+
+    def test_mesh_that_is_none(self):
+        (self.folder / 'mesh.ply').write_text('ply\nformat ascii 1.0\nelement vertex 5\n')
+        self.expect_error('mesh.ply', 'render', 'mesh.ply', '-o', 'out.png')
+        self.expect_error('none.ply', 'render', 'none.ply', '-o', 'out.png')
+
+    def test_truncated_mesh(self):
+        self.small_scene()
+        self.succeed('stereo', 'scene.json', '-o', 'features.vtm')
+        self.succeed('triangulate', 'features.vtm', '-o', 'maps.vtm')
+        for ending in ('ply', 'stl', 'vtp'):
+            mesh = self.folder / f'mesh.{ending}'
+            self.succeed('contour', 'maps.vtm', '-o', mesh, '--cells', 16)
+            whole = mesh.read_bytes()
+            for part in (0, 5, 90, len(whole) // 3, len(whole) // 2, len(whole) - 40):
+                with self.subTest(ending=ending, part=part):
+                    mesh.write_bytes(whole[:part])
+                    self.expect_error(mesh.name, 'render', mesh, '-o', 'out.png')
+
+    def test_view_that_is_none(self):
+        scene = self.small_scene()
+        (self.folder / 'mesh.ply').write_text(
+            'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n'
+            'element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n')
+        self.expect_error('nobody.jpg', 'render', 'mesh.ply', '-o', 'out.png', '--scene', scene, '--view', 'nobody.jpg')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Commands_h
+#define freespace_Commands_h
+
+#include <CLI/CLI.hpp>
+
+namespace freespace
+{
+
+class Session;
+
+/// Each adds one command of the program, with its options, its help and what it does.
+void AddReconstructCommand(CLI::App& program, Session& session);
+void AddClustersCommand(CLI::App& program, Session& session);
+void AddStereoCommand(CLI::App& program, Session& session);
+void AddTriangulateCommand(CLI::App& program, Session& session);
+void AddContourCommand(CLI::App& program, Session& session);
+void AddRenderCommand(CLI::App& program, Session& session);
+
+}
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_ErrorCollector_h
+#define freespace_ErrorCollector_h
+
+#include <vtkOutputWindow.h>
+
+#include <mutex>
+#include <string>
+
+namespace freespace
+{
+
+/// VTK's messages, without its file names, line numbers and addresses. Errors are kept, because a
+/// command tells the first one and ends; warnings go to standard error.
+class ErrorCollector : public vtkOutputWindow
+{
+public:
+  static ErrorCollector* New();
+  vtkTypeMacro(ErrorCollector, vtkOutputWindow);
+
+  void DisplayErrorText(const char* text) override;
+  void DisplayWarningText(const char* text) override;
+  void DisplayGenericWarningText(const char* text) override;
+
+  /// The first error since Clear, or an empty string.
+  std::string FirstError();
+  void Clear();
+
+private:
+  std::mutex Mutex;
+  std::string First;
+};
+
+}
+
+#endif

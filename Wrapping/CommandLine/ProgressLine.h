@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_ProgressLine_h
+#define freespace_ProgressLine_h
+
+#include <chrono>
+#include <string>
+
+namespace freespace
+{
+
+/// How far a stage has come, on standard error: a bar that is redrawn on a terminal, a plain line at
+/// each quarter in a log, nothing when quiet.
+class ProgressLine
+{
+public:
+  ProgressLine(const std::string& stage, bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// The fraction done, in [0, 1].
+  void Show(double fraction);
+
+  /// The stage has ended well: tells how long it took.
+  void Finish();
+
+private:
+  enum class Style
+  {
+    None,
+    Lines,
+    Bar
+  };
+
+  std::string Stage;
+  Style Look;
+  int Shown = -1; // percent
+  std::chrono::steady_clock::time_point Started = std::chrono::steady_clock::now();
+};
+
+}
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session.h"
+
+#include "Error.h"
+#include "ErrorCollector.h"
+#include "ProgressLine.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSMPTools.h>
+#include <vtkWriter.h>
+
+#include <csignal>
+#include <iostream>
+
+namespace freespace
+{
+
+namespace
+{
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// The first interrupt asks the running stage to stop; a second one ends the program at once.
+void OnInterrupt(int signal)
+{
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+void OnProgress(vtkObject* caller, unsigned long, void* line, void* fraction)
+{
+  static_cast<ProgressLine*>(line)->Show(*static_cast<double*>(fraction));
+  if (interrupted)
+  {
+    vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+  }
+}
+
+ErrorCollector* Collector()
+{
+  static vtkNew<ErrorCollector> collector;
+  return collector;
+}
+
+}
+
+void Session::AddOptions(CLI::App& program)
+{
+  program.add_flag("-q,--quiet", this->Quiet, "Print nothing but errors");
+  program.add_option("--threads", this->Threads, "Threads to use; 0 means all cores")
+    ->check(CLI::Range(0, 1024))
+    ->capture_default_str();
+}
+
+void Session::Begin()
+{
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkOutputWindow::SetInstance(Collector());
+  vtkSMPTools::Initialize(this->Threads);
+  std::signal(SIGINT, OnInterrupt);
+  std::signal(SIGTERM, OnInterrupt);
+}
+
+void Session::Run(vtkAlgorithm* algorithm, const std::string& stage)
+{
+  Collector()->Clear();
+  ProgressLine line(stage, this->Quiet);
+  vtkNew<vtkCallbackCommand> onProgress;
+  onProgress->SetCallback(OnProgress);
+  onProgress->SetClientData(&line);
+  const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, onProgress);
+  algorithm->Update();
+  algorithm->RemoveObserver(tag);
+  this->ThrowIfFailed();
+  line.Finish();
+}
+
+void Session::Write(vtkWriter* writer)
+{
+  Collector()->Clear();
+  const bool written = writer->Write() != 0;
+  this->ThrowIfFailed();
+  if (!written)
+  {
+    throw Error("The output could not be written.");
+  }
+}
+
+void Session::ThrowIfFailed()
+{
+  if (interrupted)
+  {
+    throw Aborted();
+  }
+  const std::string error = Collector()->FirstError();
+  if (!error.empty())
+  {
+    throw Error(error);
+  }
+}
+
+void Session::Tell(const std::string& line) const
+{
+  if (!this->Quiet)
+  {
+    std::cerr << line << std::endl;
+  }
+}
+
+}

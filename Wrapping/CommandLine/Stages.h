@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Stages_h
+#define freespace_Stages_h
+
+#include <CLI/CLI.hpp>
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkMultiBlockDataSet;
+class vtkPolyData;
+
+namespace freespace
+{
+
+class Session;
+
+/// The stages of a reconstruction: each has the options that its own command and `reconstruct` share,
+/// and runs the VTK classes that do it. Run throws Error when a stage fails.
+
+/// scene.json -> features: vtkEdgeStereoReader.
+class StereoStage
+{
+public:
+  void AddOptions(CLI::App& command);
+  vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& scene) const;
+
+private:
+  double MinimumDepth = 0;
+  double MaximumDepth = 0;
+};
+
+/// features -> disparity maps: vtkFeatureSupportFilter, vtkDelaunayDisparityFilter.
+class TriangulateStage
+{
+public:
+  void AddOptions(CLI::App& command);
+  vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, vtkMultiBlockDataSet* features) const;
+
+private:
+  double SupportRadius = 4;
+  int SupportNeighbors = 0;
+  double Tolerance = 0.0005;
+};
+
+/// disparity maps -> surface: vtkFreespaceUnion, vtkBisectionContourFilter.
+class ContourStage
+{
+public:
+  void AddOptions(CLI::App& command);
+  vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
+
+private:
+  int Cells = 256;
+  double HullMargin = 0.01;
+  int MinimumViews = 1;
+};
+
+/// Reads a .vtm of features or disparity maps.
+vtkSmartPointer<vtkMultiBlockDataSet> ReadViews(Session& session, const std::string& fileName);
+
+/// Writes them.
+void WriteViews(Session& session, vtkMultiBlockDataSet* views, const std::string& fileName);
+
+/// Reads a surface (.ply .stl .obj .vtp).
+vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fileName);
+
+/// Writes a surface; the ending of the file name chooses the format.
+void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName);
+
+/// Throws Error unless the ending of a surface's file name is known: before hours of work, not after.
+void CheckSurfaceName(const std::string& fileName);
+
+}
+
+#endif
