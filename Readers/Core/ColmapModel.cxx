@@ -2,13 +2,10 @@
 #include "ColmapModel.h"
 
 #include "Error.h"
+#include "TextSource.h"
 
-#include <charconv>
-#include <climits>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -32,73 +29,12 @@ constexpr LensModel lensModels[] = { LensModel::SimplePinhole, LensModel::Pinhol
 constexpr const char* supportedList =
   "SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and FULL_OPENCV are";
 
-std::string ReadWholeFile(const fs::path& file)
+std::string FaultOfCamera(
+  const SparseImage& image, const std::unordered_set<std::uint32_t>& cameraIds)
 {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || !fs::is_regular_file(file))
-  {
-    throw Error("Cannot read " + file.string() + ": there is no such file or it is not readable.");
-  }
-  std::string content(static_cast<std::size_t>(stream.tellg()), '\0');
-  stream.seekg(0);
-  if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())))
-  {
-    throw Error("Cannot read " + file.string() + ": the disk failed.");
-  }
-  return content;
-}
-
-// Each returns what is wrong, or nothing.
-std::string FaultOf(const SparseCamera& camera)
-{
-  if (camera.width < 1 || camera.height < 1 || camera.width > INT_MAX || camera.height > INT_MAX)
-  {
-    return "camera " + std::to_string(camera.id) + " has no usable width and height";
-  }
-  for (double parameter : camera.parameters)
-  {
-    if (!std::isfinite(parameter))
-    {
-      return "camera " + std::to_string(camera.id) + " has a parameter that is not finite";
-    }
-  }
-  const bool oneFocalLength = camera.model == LensModel::SimplePinhole ||
-    camera.model == LensModel::SimpleRadial || camera.model == LensModel::Radial;
-  if (camera.parameters[0] <= 0 || camera.parameters[oneFocalLength ? 0 : 1] <= 0)
-  {
-    return "camera " + std::to_string(camera.id) + " has a focal length that is not positive";
-  }
-  return {};
-}
-
-std::string FaultOf(const SparseImage& image, const std::unordered_set<std::uint32_t>& cameraIds)
-{
-  double norm = 0;
-  for (double q : image.rotation)
-  {
-    norm += q * q;
-  }
-  if (!std::isfinite(norm) || norm < 1e-12 || !image.translation.allFinite())
-  {
-    return "image " + std::to_string(image.id) + " has a pose that is no rotation and translation";
-  }
-  if (image.name.empty())
-  {
-    return "image " + std::to_string(image.id) + " has no name";
-  }
-  if (!cameraIds.count(image.camera))
-  {
-    return "image " + image.name + " names an unknown camera, number " +
-      std::to_string(image.camera);
-  }
-  return {};
-}
-
-std::string FaultOf(const SparsePoint& point)
-{
-  return point.position.allFinite()
+  return cameraIds.count(image.camera)
     ? std::string()
-    : "point " + std::to_string(point.id) + " has a position that is not finite";
+    : "image " + image.name + " names an unknown camera, number " + std::to_string(image.camera);
 }
 
 // Throws when an id was there before.
@@ -270,7 +206,8 @@ void ReadBinaryImages(
     }
     image.camera = source.Get<std::uint32_t>();
     image.name = source.Text();
-    FailOn(FaultOf(image, cameraIds), source);
+    FailOn(FaultOf(image), source);
+    FailOn(FaultOfCamera(image, cameraIds), source);
     ids.Add(image.id, "images", source);
     ReadBinaryObservations(source, image);
   }
@@ -308,110 +245,6 @@ void ReadBinaryPoints(const fs::path& file, SparseModel& model)
 
 // --- Text
 // -----------------------------------------------------------------------------------------
-
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view Trim(std::string_view text)
-{
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos)
-  {
-    return {};
-  }
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-// The lines of a file and the fields of the current one.
-class TextSource
-{
-public:
-  explicit TextSource(const fs::path& file)
-    : File(file)
-    , Content(ReadWholeFile(file))
-  {
-  }
-
-  [[noreturn]] void Fail(const std::string& fault) const
-  {
-    throw Error("Cannot read " + this->File.string() + ", line " + std::to_string(this->Line) +
-      ": " + fault + ".");
-  }
-
-  // The next line as it is; false at the end of the file.
-  bool NextLine()
-  {
-    if (this->Position >= this->Content.size())
-    {
-      this->Rest = {};
-      return false;
-    }
-    const std::size_t end =
-      std::min(this->Content.find('\n', this->Position), this->Content.size());
-    this->Rest = Trim(std::string_view(this->Content).substr(this->Position, end - this->Position));
-    this->Position = end + 1;
-    ++this->Line;
-    return true;
-  }
-
-  // The next line that is neither blank nor a comment.
-  bool NextEntry()
-  {
-    while (this->NextLine())
-    {
-      if (!this->Rest.empty() && this->Rest.front() != '#')
-      {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  bool AtLineEnd() const { return this->Rest.empty(); }
-
-  std::string_view Field(const char* what)
-  {
-    if (this->Rest.empty())
-    {
-      this->Fail("it ends before " + std::string(what));
-    }
-    const std::size_t end = std::min(this->Rest.find_first_of(blanks), this->Rest.size());
-    const std::string_view field = this->Rest.substr(0, end);
-    this->Rest = Trim(this->Rest.substr(end));
-    return field;
-  }
-
-  // All that is left of the line.
-  std::string_view Remainder(const char* what)
-  {
-    if (this->Rest.empty())
-    {
-      this->Fail("it ends before " + std::string(what));
-    }
-    return std::exchange(this->Rest, {});
-  }
-
-  template <typename Value>
-  Value Number(const char* what)
-  {
-    const std::string_view field = this->Field(what);
-    const char* begin = field.data() + (field.front() == '+' ? 1 : 0);
-    const char* end = field.data() + field.size();
-    Value value{};
-    const auto [stop, code] = std::from_chars(begin, end, value);
-    if (code != std::errc() || stop != end)
-    {
-      this->Fail("'" + std::string(field.substr(0, 40)) + "' is not " + what);
-    }
-    return value;
-  }
-
-private:
-  fs::path File;
-  std::string Content;
-  std::size_t Position = 0;
-  std::size_t Line = 0;
-  std::string_view Rest;
-};
 
 LensModel ModelFromName(std::string_view name, const TextSource& source)
 {
@@ -484,7 +317,8 @@ void ReadTextImages(
     }
     image.camera = source.Number<std::uint32_t>("a camera's id");
     image.name = source.Remainder("the image's name");
-    FailOn(FaultOf(image, cameraIds), source);
+    FailOn(FaultOf(image), source);
+    FailOn(FaultOfCamera(image, cameraIds), source);
     ids.Add(image.id, "images", source);
     source.NextLine(); // the observations, often none
     ReadTextObservations(source, image);

@@ -18,6 +18,19 @@ namespace freespace
 /// supported, two cameras, images or points with one id, an image with an unknown camera.
 SparseModel ReadColmapModel(const std::string& folder);
 
+enum class ColmapFormat
+{
+  Text,
+  Binary
+};
+
+/// Writes cameras, images and points3D into a folder, which is made when only its last part is
+/// missing. Numbers of text files have as many digits as it takes to read the same number again.
+/// The three files are made in a folder of their own and then renamed; files of the other format,
+/// which would stand for another model, are removed. Throws Error when the folder cannot be
+/// written.
+void WriteColmapModel(const SparseModel& model, const std::string& folder, ColmapFormat format);
+
 }
 
 #endif

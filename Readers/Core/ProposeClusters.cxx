@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -34,56 +35,20 @@ double Median(std::vector<double> values)
   return *middle;
 }
 
-// Which images see each point, from the images' own lists: models exist whose points have no
-// tracks.
-class Visibility
+// Points that an image observes, about evenly taken from its list.
+std::vector<int> SampleOf(const std::vector<int>& pointOf)
 {
-public:
-  explicit Visibility(const SparseModel& model)
-    : Images(model.points.size())
-    , Points(model.images.size())
+  std::vector<int> points;
+  std::copy_if(pointOf.begin(), pointOf.end(), std::back_inserter(points),
+    [](int point) { return point >= 0; });
+  const std::size_t count = std::min(points.size(), samplesPerImage);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    std::unordered_map<std::uint64_t, int> indices;
-    for (std::size_t i = 0; i < model.points.size(); ++i)
-    {
-      indices[model.points[i].id] = static_cast<int>(i);
-    }
-    for (std::size_t image = 0; image < model.images.size(); ++image)
-    {
-      for (const SparseObservation& observation : model.images[image].observations)
-      {
-        const auto found = indices.find(observation.point);
-        if (found != indices.end())
-        {
-          this->Images[static_cast<std::size_t>(found->second)].push_back(static_cast<int>(image));
-          this->Points[image].push_back(found->second);
-        }
-      }
-    }
+    points[i] = points[i * points.size() / count];
   }
-
-  const std::vector<int>& ImagesOf(int point) const
-  {
-    return this->Images[static_cast<std::size_t>(point)];
-  }
-
-  // Points of an image, about evenly taken from its list.
-  std::vector<int> SampleOf(std::size_t image) const
-  {
-    const std::vector<int>& points = this->Points[image];
-    const std::size_t count = std::min(points.size(), samplesPerImage);
-    std::vector<int> sample(count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      sample[i] = points[i * points.size() / count];
-    }
-    return sample;
-  }
-
-private:
-  std::vector<std::vector<int>> Images; // per point
-  std::vector<std::vector<int>> Points; // per image
-};
+  points.resize(count);
+  return points;
+}
 
 // A pair of the reference with one neighbour.
 struct Neighbor
@@ -101,7 +66,7 @@ class Proposer
 public:
   Proposer(const SparseModel& model, const ClusterProposalOptions& options)
     : Options(options)
-    , Seen(model)
+    , Tracks(model)
     , Images(CalibratedImages(model))
     , Index(Centers(this->Images))
   {
@@ -167,15 +132,15 @@ private:
   {
     std::unordered_map<int, int> shared;
     std::vector<Eigen::Vector3d> points;
-    for (int index : this->Seen.SampleOf(image))
+    for (int index : SampleOf(this->Tracks.pointOf[image]))
     {
       const Eigen::Vector3d& point = model.points[static_cast<std::size_t>(index)].position;
       if (this->CameraOf(image).Depth(point) > 0)
       {
         points.push_back(point);
-        for (int other : this->Seen.ImagesOf(index))
+        for (const SparseLink& link : this->Tracks.ofPoint[static_cast<std::size_t>(index)])
         {
-          ++shared[other];
+          ++shared[link.image];
         }
       }
     }
@@ -439,7 +404,7 @@ private:
   }
 
   ClusterProposalOptions Options;
-  Visibility Seen;
+  SparseTracks Tracks;
   std::vector<CalibratedImage> Images;
   CenterIndex Index;
   std::vector<std::unordered_map<int, int>> Shared; // per image: how many of its samples others see

@@ -29,6 +29,9 @@ std::string LensModelName(LensModel model);
 /// How many parameters a model has.
 std::size_t LensModelParameters(LensModel model);
 
+/// How many of these are focal lengths, 1 or 2. They come first, then the principal point.
+std::size_t FocalLengths(LensModel model);
+
 /// A lens and sensor, which images may share.
 struct SparseCamera
 {
@@ -82,6 +85,28 @@ struct SparseModel
   std::vector<SparseImage> images;
   std::vector<SparsePoint> points;
 };
+
+/// An observation by indices into the model's lists.
+struct SparseLink
+{
+  int image = 0;
+  int observation = 0;
+};
+
+/// Who sees what, by indices. It is made from the images' own lists, since models exist whose
+/// points have no tracks.
+struct SparseTracks
+{
+  explicit SparseTracks(const SparseModel& model);
+
+  std::vector<std::vector<SparseLink>> ofPoint; ///< per point, in the order of the images
+  std::vector<std::vector<int>> pointOf; ///< per image and observation: index of the point or -1
+};
+
+/// What makes one of these unusable, as a clause without a period; empty when nothing does.
+std::string FaultOf(const SparseCamera& camera);
+std::string FaultOf(const SparseImage& image);
+std::string FaultOf(const SparsePoint& point);
 
 /// Every image of the model with its pinhole camera and distortion, in the model's order. Throws
 /// Error when an image names a camera that the model does not hold.

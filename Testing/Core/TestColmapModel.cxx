@@ -2,10 +2,14 @@
 #include "ColmapModel.h"
 
 #include "Error.h"
+#include "ExpectSameModel.h"
+#include "SyntheticModel.h"
 #include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 using namespace freespace;
@@ -364,5 +368,78 @@ TEST(ColmapModel, DamagedBinary)
         EXPECT_NE(std::string(error.what()).find(folder.Path()), std::string::npos) << error.what();
       }
     }
+  }
+}
+
+TEST(ColmapModel, WrittenAndReadAgain)
+{
+  for (const LensModel lens : { LensModel::Pinhole, LensModel::Radial })
+  {
+    SparseModel model = MakeSyntheticModel(5, 100, lens);
+    model.images[1].name = "a name with blanks.jpg";
+    model.images[2].observations.clear();
+    for (const ColmapFormat format : { ColmapFormat::Text, ColmapFormat::Binary })
+    {
+      TemporaryFolder folder;
+      WriteColmapModel(model, folder.Path("new"), format);
+      ExpectSameModel(model, ReadColmapModel(folder.Path("new")));
+    }
+  }
+}
+
+TEST(ColmapModel, EmptyModelWrittenAndReadAgain)
+{
+  TemporaryFolder folder;
+  WriteColmapModel({}, folder.Path(), ColmapFormat::Binary);
+  EXPECT_TRUE(ReadColmapModel(folder.Path()).images.empty());
+}
+
+// Else the old binary model would be read.
+TEST(ColmapModel, WritingRemovesTheOtherFormat)
+{
+  TemporaryFolder folder;
+  WriteBinaryModel(folder);
+  const SparseModel model = MakeSyntheticModel(3, 10);
+  WriteColmapModel(model, folder.Path(), ColmapFormat::Text);
+  ExpectSameModel(model, ReadColmapModel(folder.Path()));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.Path()), {}), 3);
+}
+
+TEST(ColmapModel, WrittenToAFolderThatIsNotThere)
+{
+  EXPECT_THROW(WriteColmapModel({}, "/no/such/folder", ColmapFormat::Text), Error);
+}
+
+// COLMAP's own program reads what is written, and what it writes is the same model.
+TEST(ColmapModel, ColmapReadsIt)
+{
+  if (std::system("colmap help >/dev/null 2>&1") != 0)
+  {
+    GTEST_SKIP() << "colmap is not installed";
+  }
+  const SparseModel model = MakeSyntheticModel(4, 50, LensModel::Radial);
+  for (const ColmapFormat format : { ColmapFormat::Text, ColmapFormat::Binary })
+  {
+    TemporaryFolder folder;
+    WriteColmapModel(model, folder.Path("ours"), format);
+    std::filesystem::create_directories(folder.Path("theirs"));
+    const std::string command = "colmap model_converter --input_path " + folder.Path("ours") +
+      " --output_path " + folder.Path("theirs") + " --output_type BIN >" + folder.Path("log") +
+      " 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    SparseModel theirs = ReadColmapModel(folder.Path("theirs"));
+    for (SparseImage& image : theirs.images)
+    {
+      // COLMAP normalizes quaternions again, which may change the last bit.
+      const auto ours = std::find_if(model.images.begin(), model.images.end(),
+        [&](const SparseImage& other) { return other.id == image.id; });
+      ASSERT_NE(ours, model.images.end());
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        EXPECT_NEAR(image.rotation[k], ours->rotation[k], 1e-15);
+      }
+      image.rotation = ours->rotation;
+    }
+    ExpectSameModel(model, theirs);
   }
 }

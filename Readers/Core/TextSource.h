@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_TextSource_h
+#define freespace_TextSource_h
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace freespace
+{
+
+/// The content of a file. Throws Error naming it when it cannot be read.
+std::string ReadWholeFile(const std::string& file);
+
+/// The lines of a text file and the fields, separated by blanks, of the current one. Whatever is
+/// not as asked for throws an Error that names the file, the line and the fault.
+class TextSource
+{
+public:
+  enum class Lines
+  {
+    Separate, ///< a field is sought in the current line only
+    Blank     ///< the end of a line, an empty line and a comment are blanks like others
+  };
+
+  explicit TextSource(const std::string& file, Lines lines = Lines::Separate);
+
+  [[noreturn]] void Fail(const std::string& fault) const;
+
+  /// Goes to the next line; false at the end of the file.
+  bool NextLine();
+
+  /// Goes to the next line that is neither empty nor a comment, which begins with #.
+  bool NextEntry();
+
+  bool AtLineEnd() const { return this->Rest.empty(); }
+
+  /// The next field; `what` tells in an error what it should have been.
+  std::string_view Field(const char* what);
+
+  /// All that is left of the line.
+  std::string_view Remainder(const char* what);
+
+  /// The next field as a number.
+  template <typename Value>
+  Value Number(const char* what)
+  {
+    const std::string_view field = this->Field(what);
+    const char* begin = field.data() + (field.front() == '+' ? 1 : 0);
+    const char* end = field.data() + field.size();
+    Value value{};
+    const auto [stop, code] = std::from_chars(begin, end, value);
+    if (code != std::errc() || stop != end)
+    {
+      this->Fail("'" + std::string(field.substr(0, 40)) + "' is not " + what);
+    }
+    return value;
+  }
+
+private:
+  void NeedField(const char* what);
+
+  std::string File;
+  std::string Content;
+  Lines EndsOfLines;
+  std::size_t Position = 0;
+  std::size_t Line = 0;
+  std::string_view Rest;
+};
+
+}
+
+#endif

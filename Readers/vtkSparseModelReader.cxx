@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSparseModelReader.h"
+
+#include "AlgorithmProgress.h"
+#include "Error.h"
+#include "ReadSparseModel.h"
+#include "SMPParallelFor.h"
+#include "SparseModelBlocks.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkSparseModelReader);
+
+vtkSparseModelReader::vtkSparseModelReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+bool vtkSparseModelReader::CanReadFile(const std::string& path)
+{
+  return freespace::IsSparseModel(path);
+}
+
+int vtkSparseModelReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  freespace::SparseViewOptions options;
+  options.minimumTrackLength = this->MinimumTrackLength;
+  options.maximumError = this->MaximumError;
+  options.minimumAngle = this->MinimumAngle;
+  options.minimumFeatures = this->MinimumFeatures;
+  try
+  {
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    options.Check();
+    const freespace::SparseModel model = freespace::ReadSparseModel(this->FileName);
+    progress(0.5);
+    const std::vector<freespace::SparseView> views =
+      freespace::ViewsFromModel(model, options, freespace::SMPParallelFor);
+    progress(0.7);
+    if (views.empty())
+    {
+      throw freespace::Error("The camera model " + this->FileName + " has no image with at least " +
+        std::to_string(this->MinimumFeatures) + " points that are good enough.");
+    }
+    freespace::BlocksFromModel(model, views, output);
+    progress(1.0);
+  }
+  catch (const freespace::Aborted&)
+  {
+    output->Initialize();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    output->Initialize();
+    return 0;
+  }
+  return 1;
+}
+
+void vtkSparseModelReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "MinimumTrackLength: " << this->MinimumTrackLength << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
+  os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
+  os << indent << "MinimumFeatures: " << this->MinimumFeatures << "\n";
+}

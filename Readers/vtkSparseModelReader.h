@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSparseModelReader
+ * @brief read a structure-from-motion model as views with their features
+ *
+ * A structure-from-motion model knows cameras and points, and which image sees which point. Each
+ * image with its points is a view for this method, without a photograph. Reads COLMAP's models (a
+ * folder; binary files are preferred to text), Bundler's bundle.out and VisualSFM's .nvm files.
+ *
+ * A point is a feature of the images that see it when its track is long enough, its rays meet at
+ * a sufficient angle and its reprojection error is small. A point that is not in front of an
+ * image's camera, such as one that coincides with its centre, is no feature of that image. Images
+ * with fewer than MinimumFeatures features inside of the picture are left out.
+ *
+ * Output: a vtkMultiBlockDataSet with one vtkPolyData for each image, named after its file, with
+ * the arrays of a view (see the README). ImagePoint is where a camera without the lens's distortion
+ * sees the feature. What the model knows more is in further arrays, from which vtkSparseModelWriter
+ * makes the same model again; a model is written without loss when it was read with all limits off
+ * (MinimumTrackLength 1, MaximumError infinite, MinimumAngle 0, MinimumFeatures 0), but for points
+ * that no image sees in front of it and cameras that no image has.
+ *
+ * | where     | name                | type           | meaning                                  |
+ * |-----------|---------------------|----------------|------------------------------------------|
+ * | PointData | PointId             | 64 bit integer | number of the point in the model         |
+ * | PointData | Observation         | int            | its place among those of the image       |
+ * | PointData | ObservedPixel       | double x2      | where the picture shows it, distorted    |
+ * | PointData | RGB                 | uchar x3       | colour                                   |
+ * | PointData | ReprojectionError   | double         | as the model says, pixels; -1: unknown   |
+ * | FieldData | ImageId, CameraId   | 64 bit integer | numbers in the model                     |
+ * | FieldData | Rotation            | double x4      | cam_from_world, quaternion w x y z       |
+ * | FieldData | LensModel           | string         | COLMAP's name of the camera model        |
+ * | FieldData | LensParameters      | double         | in COLMAP's order                        |
+ * | FieldData | Keypoint            | double x2      | observations that are no features        |
+ * | FieldData | KeypointObservation | int            | their places among those of the image    |
+ *
+ * A model that is missing, truncated or malformed, one with a camera model that is not supported,
+ * and one without a single view is an error that names the file; the output is then empty. After an
+ * abort it is empty, too.
+ */
+#ifndef vtkSparseModelReader_h
+#define vtkSparseModelReader_h
+
+#include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkMultiBlockDataSetAlgorithm.h"
+
+#include <string> // for FileName
+
+class VTKFREESPACEREADERS_EXPORT vtkSparseModelReader : public vtkMultiBlockDataSetAlgorithm
+{
+public:
+  static vtkSparseModelReader* New();
+  vtkTypeMacro(vtkSparseModelReader, vtkMultiBlockDataSetAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The folder of a COLMAP model, a file that ends in .out (Bundler) or in .nvm (VisualSFM).
+   */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+  ///@{
+  /**
+   * So many images must see a point. Default 3: two may agree by chance.
+   */
+  vtkSetMacro(MinimumTrackLength, int);
+  vtkGetMacro(MinimumTrackLength, int);
+  ///@}
+
+  ///@{
+  /**
+   * An observation may be so far from the projection of its point, in pixels. Default 4.
+   */
+  vtkSetMacro(MaximumError, double);
+  vtkGetMacro(MaximumError, double);
+  ///@}
+
+  ///@{
+  /**
+   * The greatest angle between two rays to a point must be so large, in degrees. Default 1.
+   */
+  vtkSetMacro(MinimumAngle, double);
+  vtkGetMacro(MinimumAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Images with fewer features inside of the picture are left out. Default 10.
+   */
+  vtkSetMacro(MinimumFeatures, int);
+  vtkGetMacro(MinimumFeatures, int);
+  ///@}
+
+  /**
+   * Whether a path looks like that of a model: a folder with COLMAP's files or a bundle.out, or a
+   * file that ends in .out or .nvm.
+   */
+  static bool CanReadFile(const std::string& path);
+
+protected:
+  vtkSparseModelReader();
+  ~vtkSparseModelReader() override = default;
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  std::string FileName;
+  int MinimumTrackLength = 3;
+  double MaximumError = 4.0;
+  double MinimumAngle = 1.0;
+  int MinimumFeatures = 10;
+
+private:
+  vtkSparseModelReader(const vtkSparseModelReader&) = delete;
+  void operator=(const vtkSparseModelReader&) = delete;
+};
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkClusterProposal.h"
+
+#include "Scene.h"
+#include "SharedData.h"
+#include "TemporaryFolder.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+using namespace freespace;
+
+TEST(ClusterProposal, SavedAndReadAgain)
+{
+  const std::string file = SharedData("blocks/scene.json");
+  if (file.empty())
+  {
+    GTEST_SKIP() << "no shared data";
+  }
+  vtkNew<vtkClusterProposal> proposal;
+  proposal->SetFileName(file);
+  ASSERT_EQ(proposal->Propose(), 1);
+  EXPECT_EQ(proposal->GetNumberOfClusters(), 6);
+  EXPECT_EQ(proposal->GetReference(0), "cluster1_c.jpg");
+  EXPECT_EQ(proposal->GetNumberOfTriplets(0), 2);
+  EXPECT_NE(proposal->GetText().find("cluster1_c.jpg: cross"), std::string::npos);
+  TemporaryFolder folder;
+  ASSERT_EQ(proposal->WriteScene(folder.Path("scene.json")), 1);
+  const Scene scene = ReadScene(folder.Path("scene.json"));
+  EXPECT_EQ(scene.clusters.size(), 6u);
+  EXPECT_EQ(ReadSceneImages(scene).size(), 30u) << "the relative folders still hold";
+}
+
+TEST(ClusterProposal, BadInput)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  vtkNew<vtkClusterProposal> proposal;
+  proposal->SetFileName("/no/such/scene.json");
+  EXPECT_EQ(proposal->Propose(), 0);
+  EXPECT_EQ(proposal->GetNumberOfClusters(), 0);
+  EXPECT_EQ(proposal->GetReference(0), "");
+  EXPECT_EQ(proposal->GetNumberOfTriplets(-1), 0);
+  TemporaryFolder folder;
+  EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0);
+  folder.Write("sparse/cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
+  folder.Write("sparse/images.txt", "1 1 0 0 0 0 0 0 1 a.jpg\n\n");
+  proposal->SetFileName(
+    folder.Write("scene.json", R"({ "images": "pictures", "model": "sparse" })"));
+  EXPECT_EQ(proposal->Propose(), 0) << "one image has no neighbours";
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSparseModelWriter.h"
+
+#include "ColmapModel.h"
+#include "Error.h"
+#include "SparseModelBlocks.h"
+
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkSparseModelWriter);
+
+int vtkSparseModelWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  return 1;
+}
+
+void vtkSparseModelWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  try
+  {
+    const freespace::SparseModel model =
+      freespace::ModelFromBlocks(vtkMultiBlockDataSet::SafeDownCast(this->GetInput()));
+    freespace::WriteColmapModel(model, this->FileName,
+      this->Binary ? freespace::ColmapFormat::Binary : freespace::ColmapFormat::Text);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkSparseModelWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "Binary: " << this->Binary << "\n";
+}
