@@ -9,14 +9,16 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkIdTypeArray.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -49,54 +51,47 @@ Eigen::AlignedBox3d MakeBox(const double b[6])
   return Eigen::AlignedBox3d(Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5]));
 }
 
-vtkSmartPointer<vtkPoints> MakePoints(const freespace::ContourMesh& mesh)
+/// The output's own arrays, for the core to write into.
+freespace::ContourArrays AllocateOutput(
+  vtkPolyData* output, std::size_t points, std::size_t triangles, bool isSingle, bool withLabels)
 {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
-  }
-  return points;
-}
+  freespace::ContourArrays arrays;
+  vtkNew<vtkPoints> outputPoints;
+  outputPoints->SetDataType(isSingle ? VTK_FLOAT : VTK_DOUBLE);
+  outputPoints->SetNumberOfPoints(static_cast<vtkIdType>(points));
+  output->SetPoints(outputPoints);
+  void* coordinates = outputPoints->GetVoidPointer(0);
+  (isSingle ? reinterpret_cast<void*&>(arrays.singlePoints)
+            : reinterpret_cast<void*&>(arrays.doublePoints)) = coordinates;
 
-vtkSmartPointer<vtkCellArray> MakeTriangles(const freespace::ContourMesh& mesh)
-{
-  vtkNew<vtkIdTypeArray> offsets, corners;
-  const vtkIdType n = static_cast<vtkIdType>(mesh.triangles.size());
-  offsets->SetNumberOfValues(n + 1);
+  // 32 bits are enough, and half the memory.
+  const vtkIdType n = static_cast<vtkIdType>(triangles);
+  vtkNew<vtkTypeInt32Array> offsets, corners;
   corners->SetNumberOfValues(3 * n);
-  for (vtkIdType t = 0; t < n; ++t)
+  offsets->SetNumberOfValues(n + 1);
+  for (vtkIdType t = 0; t <= n; ++t)
   {
-    offsets->SetValue(t, 3 * t);
-    for (int i = 0; i < 3; ++i)
-    {
-      corners->SetValue(3 * t + i, mesh.triangles[t][i]);
-    }
+    offsets->SetValue(t, static_cast<vtkTypeInt32>(3 * t));
   }
-  offsets->SetValue(n, 3 * n);
-  auto triangles = vtkSmartPointer<vtkCellArray>::New();
-  triangles->SetData(offsets, corners);
-  return triangles;
-}
-
-void AddLabels(const freespace::ContourMesh& mesh, vtkPolyData* output)
-{
-  const vtkIdType n = static_cast<vtkIdType>(mesh.triangles.size());
-  vtkNew<vtkIntArray> view;
-  view->SetName("View");
-  view->SetNumberOfValues(n);
-  vtkNew<vtkUnsignedCharArray> kind;
-  kind->SetName("Kind");
-  kind->SetNumberOfValues(n);
-  for (vtkIdType t = 0; t < n; ++t)
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, corners);
+  output->SetPolys(cells);
+  arrays.triangles = corners->GetPointer(0);
+  if (withLabels)
   {
-    view->SetValue(t, mesh.view[t]);
-    kind->SetValue(t, static_cast<unsigned char>(mesh.kind[t]));
+    vtkNew<vtkIntArray> view;
+    view->SetName("View");
+    view->SetNumberOfValues(n);
+    vtkNew<vtkUnsignedCharArray> kind;
+    kind->SetName("Kind");
+    kind->SetNumberOfValues(n);
+    output->GetCellData()->AddArray(view);
+    output->GetCellData()->AddArray(kind);
+    arrays.view = view->GetPointer(0);
+    static_assert(sizeof(freespace::SurfaceKind) == 1, "a Kind is an unsigned char");
+    arrays.kind = reinterpret_cast<freespace::SurfaceKind*>(kind->GetPointer(0));
   }
-  output->GetCellData()->AddArray(view);
-  output->GetCellData()->AddArray(kind);
+  return arrays;
 }
 
 }
@@ -128,10 +123,18 @@ vtkMTimeType vtkBisectionContourFilter::GetMTime()
   return this->ImplicitFunction ? std::max(own, this->ImplicitFunction->GetMTime()) : own;
 }
 
+int vtkBisectionContourFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  outputVector->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
 int vtkBisectionContourFilter::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  vtkInformation* information = outputVector->GetInformationObject(0);
+  vtkPolyData* output = vtkPolyData::GetData(information);
   if (!this->ImplicitFunction)
   {
     vtkErrorMacro("There is no implicit function to contour.");
@@ -141,6 +144,11 @@ int vtkBisectionContourFilter::RequestData(
   options.cells = this->Cells;
   options.tolerance = this->Tolerance;
   options.clearance = this->Clearance;
+  if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
+  {
+    options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+    options.pieces = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+  }
   Eigen::AlignedBox3d bounds = MakeBox(this->Bounds);
   auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
   std::shared_ptr<const freespace::FreespaceUnion> core;
@@ -169,14 +177,11 @@ int vtkBisectionContourFilter::RequestData(
     const FunctionField function(this->ImplicitFunction);
     const freespace::ContourField& field =
       direct ? static_cast<const freespace::ContourField&>(*core) : function;
-    const freespace::ContourMesh mesh = freespace::BisectionContour(
-      field, bounds, options, freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
-    output->SetPoints(MakePoints(mesh));
-    output->SetPolys(MakeTriangles(mesh));
-    if (direct)
-    {
-      AddLabels(mesh, output);
-    }
+    const bool isSingle = freespace::SinglePrecisionSuffices(bounds, options);
+    const auto allocate = [&](std::size_t points, std::size_t triangles)
+    { return AllocateOutput(output, points, triangles, isSingle, direct); };
+    freespace::BisectionContour(field, bounds, options, allocate,
+      freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
   }
   catch (const freespace::Aborted&)
   {

@@ -92,6 +92,7 @@ protected:
   vtkBisectionContourFilter();
   ~vtkBisectionContourFilter() override;
 
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   vtkSmartPointer<vtkImplicitFunction> ImplicitFunction;

@@ -19,36 +19,26 @@ struct ContourOptions
   double tolerance = 1e-3; ///< of the bisection, as a fraction of a cell; in (0, 0.5]
   double clearance = 0.01; ///< vertices keep so far from the lattice's points, as a fraction of a
                            ///< cell, lest triangles vanish; in (0, 0.25]
+  int piece = 0;           ///< which of the pieces to make; in [0, pieces)
+  int pieces = 1;          ///< that together are the surface; >= 1
 
   /// Throws Error when a field is out of its range.
   void Check() const;
 };
 
-/// The regular lattice that a contour is taken over. Cells are cubes.
-struct ContourLattice
+/// Where a contour writes its mesh: three values to a point and to a triangle, one to a label.
+/// Points go to either precision, the other is null; so may be the labels.
+struct ContourArrays
 {
-  Eigen::Vector3d origin;   ///< the first point
-  double spacing = 0.0;     ///< between points
-  std::array<int, 3> cells; ///< along each axis; there is one point more
-
-  /// The lattice for a box: its outermost points lie half a cell (or more) outside of the box, so
-  /// that the box's faces are crossed between points.
-  ContourLattice(const Eigen::AlignedBox3d& bounds, int cellsAlongLongestSide);
-
-  Eigen::Vector3d Point(int i, int j, int k) const
-  {
-    return this->origin + this->spacing * Eigen::Vector3d(i, j, k);
-  }
+  float* singlePoints = nullptr;
+  double* doublePoints = nullptr;
+  std::int32_t* triangles = nullptr; ///< counter-clockwise from the free side
+  std::int32_t* view = nullptr;      ///< per triangle: the view that carved it, -1 the hull
+  SurfaceKind* kind = nullptr;       ///< per triangle
 };
 
-/// A triangle mesh whose triangles know what they are.
-struct ContourMesh
-{
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::array<std::int32_t, 3>> triangles; ///< counter-clockwise from the free side
-  std::vector<std::int32_t> view;                     ///< per triangle: that carved it, -1 the hull
-  std::vector<SurfaceKind> kind;                      ///< per triangle
-};
+/// Provides the arrays when their sizes are known, so that no copy of a large mesh is made.
+using AllocateContour = std::function<ContourArrays(std::size_t points, std::size_t triangles)>;
 
 /// The boundary of the matter within the bounds, by marching cubes whose vertices are found by
 /// bisection (section 2.2, figure 6). What lies outside of the bounds counts as free, so that the
@@ -57,6 +47,27 @@ struct ContourMesh
 /// The lattice is descended as an octree of boxes that the field classifies; where it cannot, every
 /// point is asked. The work is cut into blocks that depend on the lattice alone, so the mesh is the
 /// same for any number of threads. The surface is closed, 2-manifold and oriented for any field.
+///
+/// Pieces share out the lattice. A piece is open where it meets others, and has exactly their
+/// vertices there.
+///
+/// Throws Aborted when the progress wants to stop; nothing is allocated then.
+void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
+  const ContourOptions& options, const AllocateContour& allocate, const Progress& progress = {},
+  const ParallelFor& parallelFor = SerialFor);
+
+/// Whether points in single precision keep the surface free of degenerate triangles.
+bool SinglePrecisionSuffices(const Eigen::AlignedBox3d& bounds, const ContourOptions& options);
+
+/// A mesh of its own, for callers without arrays.
+struct ContourMesh
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> view;
+  std::vector<SurfaceKind> kind;
+};
+
 ContourMesh BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const Progress& progress = {},
   const ParallelFor& parallelFor = SerialFor);

@@ -64,8 +64,9 @@ public:
     return BoxContent::Mixed;
   }
 
-  /// What the surface between a free and a matter point close to it is.
-  virtual SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter) const
+  /// What the surface between a free and a matter point close to it is, within a scope's box.
+  virtual SurfaceLabel Label(
+    const Eigen::Vector3d& free, const Eigen::Vector3d& matter, const FieldScope& scope) const
   {
     return {};
   }

@@ -103,6 +103,7 @@ CubeCases::CubeCases()
   for (int matter = 0; matter < 256; ++matter)
   {
     std::array<int, 12> next = Successors(faces, matter);
+    this->Triangles[matter] = 0;
     for (int edge = 0; edge < 12; ++edge)
     {
       Loop loop;
@@ -115,6 +116,7 @@ CubeCases::CubeCases()
       {
         BringApexToFront(faces, loop);
         this->Cases[matter].push_back(loop);
+        this->Triangles[matter] += static_cast<int>(loop.size()) - 2;
       }
     }
   }

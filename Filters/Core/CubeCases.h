@@ -31,6 +31,8 @@ public:
 
   const std::vector<Loop>& Loops(int matterCorners) const { return this->Cases[matterCorners]; }
 
+  int NumberOfTriangles(int matterCorners) const { return this->Triangles[matterCorners]; }
+
   /// The corner where an edge begins; it ends at Begin + (1 << edge / 4).
   static int Begin(int edge)
   {
@@ -45,6 +47,7 @@ private:
   CubeCases();
 
   std::array<std::vector<Loop>, 256> Cases;
+  std::array<int, 256> Triangles;
 };
 
 }

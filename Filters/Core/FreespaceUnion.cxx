@@ -202,34 +202,40 @@ BoxContent FreespaceUnion::Classify(
   return never && hull == BoxContent::Matter ? BoxContent::Matter : BoxContent::Mixed;
 }
 
-SurfaceLabel FreespaceUnion::Label(const Vector3d& free, const Vector3d& matter) const
+SurfaceLabel FreespaceUnion::Label(
+  const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
 {
-  // The view that opened the way: free on one side, not on the other, by as much as possible.
   SurfaceLabel label;
-  double greatest = -HUGE_VAL;
-  const int plane = this->Hull().NearestPlane(free);
-  if (plane >= 0)
+  double greatest = 0.0;
+  for (int plane : scope.planes)
   {
-    label.normal = this->Hull().Normal(plane);
     const double outside = this->Hull().Distance(plane, free);
-    greatest = outside > 0 ? outside : greatest;
+    if (outside > greatest)
+    {
+      greatest = outside;
+      label.normal = this->Hull().Normal(plane);
+    }
   }
-  for (std::size_t i = 0; i < this->Views.size(); ++i)
+  // The view that opened the way: free on one side, not on the other, by as much as possible.
+  for (int view : scope.views)
   {
-    const ViewFreespace::Sample front = this->Views[i]->At(free);
-    if (front.triangle < 0 || !(front.value > 0) || front.value <= greatest)
+    const ViewFreespace::Sample front = this->Views[view]->At(free);
+    if (front.triangle < 0 || !(front.value > greatest))
     {
       continue;
     }
-    const ViewFreespace::Sample behind = this->Views[i]->At(matter);
-    if (behind.triangle < 0 || !(behind.value > 0))
+    const ViewFreespace::Sample behind = this->Views[view]->At(matter);
+    if (behind.triangle >= 0 && behind.value > 0)
     {
-      greatest = front.value;
-      label.view = static_cast<int>(i);
-      label.kind = behind.triangle < 0 ? SurfaceKind::Wall : SurfaceKind::Feature;
-      // A wall's normal is not the map's: it points from the wall into the claimed side.
-      label.normal = behind.triangle < 0 ? Vector3d(free - matter).normalized()
-                                         : Vector3d(front.gradient.normalized());
+      continue;
+    }
+    greatest = front.value;
+    label.view = view;
+    label.kind = behind.triangle < 0 ? SurfaceKind::Wall : SurfaceKind::Feature;
+    label.normal = front.gradient.normalized();
+    if (label.kind == SurfaceKind::Wall)
+    {
+      label.normal = this->Views[view]->WallNormal(free, matter);
     }
   }
   return label;

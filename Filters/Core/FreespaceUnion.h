@@ -49,7 +49,8 @@ public:
   FieldScope Root() const override;
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
-  SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter) const override;
+  SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter,
+    const FieldScope& scope) const override;
   bool IsThreadSafe() const override { return true; }
 
   const FeatureHull& Hull() const { return *this->FeaturesHull; }

@@ -325,34 +325,31 @@ double ViewFreespace::Turn(int a, int b, double x, double y) const
   return reversed ? -turn : turn;
 }
 
-// Walks over the edges that have the point beyond them. True when it came to an end: at the point's
-// triangle, or at the map's border (found = -1).
-bool ViewFreespace::Locate(double x, double y, int start, int& found) const
+// Walks over the edges that have the point beyond them, to the point's triangle or to the border.
+ViewFreespace::Walk ViewFreespace::WalkTo(double x, double y, int start) const
 {
   int at = start, from = -1;
   for (int step = 0; step < LongestWalk; ++step)
   {
     const Triangle& triangle = this->Triangles[at];
-    int next = at;
-    for (int i = 0; i < 3; ++i)
+    int crossed = -1;
+    for (int i = 0; i < 3 && crossed < 0; ++i)
     {
       const int neighbor = triangle.neighbor[i];
       if ((neighbor != from || neighbor < 0) &&
         this->Turn(triangle.corner[i], triangle.corner[(i + 1) % 3], x, y) < 0)
       {
-        next = neighbor;
-        break;
+        crossed = i;
       }
     }
-    if (next == at || next < 0)
+    if (crossed < 0 || triangle.neighbor[crossed] < 0)
     {
-      found = next;
-      return true;
+      return { true, at, crossed };
     }
     from = at;
-    at = next;
+    at = triangle.neighbor[crossed];
   }
-  return false;
+  return { false, at, -1 };
 }
 
 // The triangle in the cell's list that holds the point, or -1.
@@ -380,14 +377,14 @@ int ViewFreespace::Find(const Pixel& pixel) const
   {
     return -1;
   }
-  int found = -1;
-  if (this->Locate(pixel.x, pixel.y, cell.triangle, found) && found >= 0)
+  const Walk walk = this->WalkTo(pixel.x, pixel.y, cell.triangle);
+  if (walk.ended && walk.border < 0)
   {
-    return found;
+    return walk.triangle;
   }
   // Out over a border, which in a map with holes or bays proves nothing; or a walk too long. A cell
   // without border is covered: there the walk's start stands in, should rounding lose the point.
-  found = this->LocateInCell(pixel.x, pixel.y);
+  const int found = this->LocateInCell(pixel.x, pixel.y);
   return found < 0 && cell.high < Infinity ? cell.triangle : found;
 }
 
@@ -447,6 +444,29 @@ bool ViewFreespace::IsFree(const Vector3d& point) const
   const int found = this->Find(pixel);
   return found >= 0 &&
     this->Disparity(this->Triangles[found], pixel.x, pixel.y) * pixel.depth < 1.0;
+}
+
+Vector3d ViewFreespace::WallNormal(const Vector3d& claimed, const Vector3d& beyond) const
+{
+  Pixel from, to;
+  const bool inRaster = this->Project(claimed, from);
+  const int start = inRaster ? this->Find(from) : -1;
+  const Vector3d q = this->RasterFromWorld * beyond.homogeneous();
+  to = { q.x() / q.z(), q.y() / q.z(), q.z() };
+  if (start >= 0 && to.depth > 0)
+  {
+    const Walk walk = this->WalkTo(to.x, to.y, start);
+    if (walk.border >= 0)
+    {
+      const auto& corner = this->Triangles[walk.triangle].corner;
+      const Vector2d& a = this->Corners[corner[walk.border]].position;
+      const Vector2d& b = this->Corners[corner[(walk.border + 1) % 3]].position;
+      // Triangles turn positively, so the line's positive side is the claimed one.
+      const Vector3d line = a.homogeneous().cross(b.homogeneous());
+      return (this->RasterFromWorld.leftCols<3>().transpose() * line).normalized();
+    }
+  }
+  return (claimed - beyond).normalized();
 }
 
 BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const

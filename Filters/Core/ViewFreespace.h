@@ -39,6 +39,11 @@ public:
   /// The sign of At alone: whether the view says that the point is free.
   bool IsFree(const Eigen::Vector3d& point) const;
 
+  /// The normal of the silhouette wall between a claimed point and one close to it that is not: of
+  /// the plane through the camera's centre and the border edge between them in the image. Points to
+  /// the claimed side.
+  Eigen::Vector3d WallNormal(const Eigen::Vector3d& claimed, const Eigen::Vector3d& beyond) const;
+
   /// Free: the view says so for all the box; Matter: for no point of it. Conservative.
   BoxContent Classify(const Eigen::AlignedBox3d& box) const;
 
@@ -75,7 +80,13 @@ private:
   };
 
   bool Project(const Eigen::Vector3d& point, Pixel& pixel) const;
-  bool Locate(double x, double y, int start, int& found) const;
+  struct Walk
+  {
+    bool ended;   ///< false: it grew too long
+    int triangle; ///< where it ended
+    int border;   ///< the edge of the triangle that it would have left the map by, or -1
+  };
+  Walk WalkTo(double x, double y, int start) const;
   int LocateInCell(double x, double y) const;
   int Find(const Pixel& pixel) const;
   double Disparity(const Triangle& triangle, double x, double y) const;
