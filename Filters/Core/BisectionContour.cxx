@@ -111,7 +111,7 @@ public:
     : Field(field, bounds)
     , Lattice(bounds, options.cells)
     , Options(options)
-    , Crossing{ options.tolerance, options.clearance }
+    , Crossing{ options.tolerance, options.clearance, options.exact }
   {
   }
 

@@ -19,6 +19,8 @@ struct ContourOptions
   double tolerance = 1e-3; ///< of the bisection, as a fraction of a cell; in (0, 0.5]
   double clearance = 0.01; ///< vertices keep so far from the lattice's points, as a fraction of a
                            ///< cell, lest triangles vanish; in (0, 0.25]
+  bool exact = true;       ///< take crossings from the field where it knows them, see
+                           ///< ContourField::Crossing; the tolerance is for all others
   int piece = 0;           ///< which of the pieces to make; in [0, pieces)
   int pieces = 1;          ///< that together are the surface; >= 1
 

@@ -74,6 +74,33 @@ BoxContent BoundedField::Classify(
   return content == BoxContent::Matter && !this->Bounds.contains(box) ? BoxContent::Mixed : content;
 }
 
+bool BoundedField::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
+  double& place, SurfaceLabel& label) const
+{
+  if (this->Bounds.contains(free))
+  {
+    return this->Field.Crossing(matter, free, scope, place, label);
+  }
+  // Up to where the segment leaves the bounds, if the field does not make it free before.
+  double exit = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double step = free[axis] - matter[axis];
+    const double side = step > 0 ? this->Bounds.max()[axis] : this->Bounds.min()[axis];
+    exit = step == 0.0 ? exit : std::min(exit, (side - matter[axis]) / step);
+  }
+  const Vector3d border = matter + exit * (free - matter);
+  if (this->Field.IsFree(border, scope))
+  {
+    const bool isKnown = this->Field.Crossing(matter, border, scope, place, label);
+    place *= exit;
+    return isKnown;
+  }
+  place = exit;
+  label = { -1, SurfaceKind::Hull, (free - matter).normalized() };
+  return true;
+}
+
 SurfaceLabel BoundedField::Label(
   const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
 {
@@ -207,27 +234,38 @@ private:
       });
   }
 
-  /// The bisection of section 2.2, along the lattice edge from a point up an axis.
+  /// The vertex on the lattice edge from a point up an axis.
   void AddVertex(const Vector3d& begin, int axis, bool beginIsFree, const FieldScope& scope)
   {
-    const auto at = [&](double s)
+    const Vector3d end = begin + this->Lattice.spacing * Vector3d::Unit(axis);
+    const Vector3d& matter = beginIsFree ? end : begin;
+    const Vector3d& free = beginIsFree ? begin : end;
+    double place;
+    SurfaceLabel label;
+    if (!this->Options.exact || !this->Field.Crossing(matter, free, scope, place, label))
     {
-      Vector3d point = begin;
-      point[axis] += s * this->Lattice.spacing;
-      return point;
-    };
+      place = this->Bisect(matter, free, scope, label);
+    }
+    const double clear = this->Options.clearance;
+    place = std::clamp(beginIsFree ? 1.0 - place : place, clear, 1.0 - clear);
+    this->Block.places.push_back(static_cast<float>(place));
+    this->Block.Labels.push_back(
+      static_cast<std::int16_t>(label.view * 4 + static_cast<int>(label.kind)));
+  }
+
+  /// The bisection of section 2.2, from matter to free.
+  double Bisect(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
+    SurfaceLabel& label) const
+  {
+    const auto at = [&](double s) { return Vector3d(matter + s * (free - matter)); };
     double low = 0.0, high = 1.0;
     while (high - low > this->Options.tolerance)
     {
       const double middle = 0.5 * (low + high);
-      (this->Field.IsFree(at(middle), scope) == beginIsFree ? low : high) = middle;
+      (this->Field.IsFree(at(middle), scope) ? high : low) = middle;
     }
-    const double clear = this->Options.clearance;
-    this->Block.places.push_back(
-      static_cast<float>(std::clamp(0.5 * (low + high), clear, 1.0 - clear)));
-    const SurfaceLabel label =
-      this->Field.Label(at(beginIsFree ? low : high), at(beginIsFree ? high : low), scope);
-    this->Block.Labels.push_back(label.view * 4 + static_cast<int>(label.kind));
+    label = this->Field.Label(at(high), at(low), scope);
+    return 0.5 * (low + high);
   }
 
   void FindCells()

@@ -61,6 +61,9 @@ public:
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const;
 
+  bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free, const FieldScope& scope,
+    double& place, SurfaceLabel& label) const;
+
   SurfaceLabel Label(
     const Eigen::Vector3d& free, const Eigen::Vector3d& matter, const FieldScope& scope) const;
 
@@ -76,6 +79,7 @@ struct CrossingOptions
 {
   double tolerance = 1e-3;
   double clearance = 0.01;
+  bool exact = true;
 };
 
 /// The contour within a block of cells: its vertices, by bisection along the lattice edges that
@@ -121,7 +125,7 @@ public:
   std::size_t NumberOfTriangles() const;
 
 private:
-  std::vector<std::int32_t> Labels; ///< of the vertices: view and kind
+  std::vector<std::int16_t> Labels; ///< of the vertices: 4 * view + kind
   friend class BlockSampler;
 };
 

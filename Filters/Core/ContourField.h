@@ -28,7 +28,7 @@ enum class SurfaceKind : unsigned char
 /// What a point of the surface is.
 struct SurfaceLabel
 {
-  int view = -1; ///< the view that carved it; -1: none, it lies on the hull
+  int view = -1; ///< the view that carved it, below 8192; -1: none, it lies on the hull
   SurfaceKind kind = SurfaceKind::Hull;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< out of the matter; zero where not known
 };
@@ -62,6 +62,15 @@ public:
   {
     scope = parent;
     return BoxContent::Mixed;
+  }
+
+  /// Where the surface crosses the segment from a matter to a free point, as a fraction of it, and
+  /// what it is there: for fields that know better than by bisection. Where the segment crosses it
+  /// more than once, the crossing nearest to the matter point. False: not known.
+  virtual bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+    const FieldScope& scope, double& place, SurfaceLabel& label) const
+  {
+    return false;
   }
 
   /// What the surface between a free and a matter point close to it is, within a scope's box.

@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 namespace
 {
 
+/// As many as the labels of a surface can tell apart.
+constexpr std::size_t MostViews = 8191;
+
 void CheckTriangles(const DisparityMap& map)
 {
   const int n = static_cast<int>(map.points.size());
@@ -52,6 +55,11 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   : Options(options)
 {
   options.Check();
+  if (maps.size() > MostViews)
+  {
+    throw Error("There are " + std::to_string(maps.size()) + " views, at most "
+      + std::to_string(MostViews) + " can be united.");
+  }
   std::vector<Vector3d> features;
   Eigen::AlignedBox3d box;
   for (const DisparityMap& map : maps)
@@ -133,15 +141,18 @@ FieldScope FreespaceUnion::Root() const
   return scope;
 }
 
-bool FreespaceUnion::IsFree(const Vector3d& point) const
+bool FreespaceUnion::IsSeenFree(const Vector3d& point) const
 {
   int free = 0;
-  for (const auto& view : this->Views)
+  return std::any_of(this->Views.begin(), this->Views.end(),
+    [&](const auto& view) { return view->IsFree(point) && ++free == this->Options.minimumViews; });
+}
+
+bool FreespaceUnion::IsFree(const Vector3d& point) const
+{
+  if (this->IsSeenFree(point))
   {
-    if (view->IsFree(point) && ++free == this->Options.minimumViews)
-    {
-      return true;
-    }
+    return true;
   }
   const int plane = this->Hull().NearestPlane(point);
   return plane < 0 || this->Hull().Distance(plane, point) > 0;
@@ -200,6 +211,60 @@ BoxContent FreespaceUnion::Classify(
   const bool never =
     scope.freeViews + static_cast<int>(scope.views.size()) < this->Options.minimumViews;
   return never && hull == BoxContent::Matter ? BoxContent::Matter : BoxContent::Mixed;
+}
+
+bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
+  double& place, SurfaceLabel& label) const
+{
+  if (this->Options.minimumViews > 1)
+  {
+    return false;
+  }
+  place = 2.0;
+  for (int plane : scope.planes)
+  {
+    const double inside = this->Hull().Distance(plane, matter);
+    const double outside = this->Hull().Distance(plane, free);
+    if (outside > 0 && inside / (inside - outside) < place)
+    {
+      place = inside / (inside - outside);
+      label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
+    }
+  }
+  int opener = -1;
+  thread_local ViewFreespace::Intervals intervals;
+  for (int view : scope.views)
+  {
+    this->Views[view]->FreeIntervals(matter, free, intervals);
+    if (!intervals.empty() && intervals.front().first < place)
+    {
+      place = intervals.front().first;
+      opener = view;
+    }
+  }
+  if (opener >= 0)
+  {
+    label = this->LabelOfView(opener, matter + place * (free - matter), free - matter);
+  }
+  return place >= 0 && place <= 1;
+}
+
+// What the surface is where a view begins to be free, on the way from matter.
+SurfaceLabel FreespaceUnion::LabelOfView(
+  int view, const Vector3d& crossing, const Vector3d& towardsFree) const
+{
+  const ViewFreespace& opener = *this->Views[view];
+  const double step = 1e-6;
+  const ViewFreespace::Sample sample = opener.At(crossing);
+  // On the map the value is nothing but rounding; over a wall it is the height above the map.
+  if (sample.triangle >= 0 &&
+    std::abs(sample.value) <= step * sample.gradient.norm() * towardsFree.norm())
+  {
+    return { view, SurfaceKind::Feature, sample.gradient.normalized() };
+  }
+  const Vector3d normal =
+    opener.WallNormal(crossing + step * towardsFree, crossing - step * towardsFree);
+  return { view, SurfaceKind::Wall, normal };
 }
 
 SurfaceLabel FreespaceUnion::Label(

@@ -45,10 +45,15 @@ public:
   /// The sign of Value, faster. Zero and all that is not a number are matter and free respectively.
   bool IsFree(const Eigen::Vector3d& point) const;
 
+  /// Whether the views alone say that the point is free, whatever the hull.
+  bool IsSeenFree(const Eigen::Vector3d& point) const;
+
   bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
   FieldScope Root() const override;
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
+  bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free, const FieldScope& scope,
+    double& place, SurfaceLabel& label) const override;
   SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter,
     const FieldScope& scope) const override;
   bool IsThreadSafe() const override { return true; }
@@ -63,6 +68,8 @@ private:
     double value;
     Eigen::Vector3d gradient;
   };
+  SurfaceLabel LabelOfView(
+    int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
   FreespaceUnionOptions Options;

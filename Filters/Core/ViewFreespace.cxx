@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 namespace freespace
 {
@@ -31,6 +30,25 @@ float RoundDown(double x)
 float RoundUp(double x)
 {
   return std::nextafter(static_cast<float>(x), Infinity);
+}
+
+// Sorts intervals and joins those that touch, but for the last bits.
+void Join(ViewFreespace::Intervals& intervals)
+{
+  std::sort(intervals.begin(), intervals.end());
+  std::size_t count = 0;
+  for (const auto& interval : intervals)
+  {
+    if (count > 0 && interval.first <= intervals[count - 1].second + 1e-13)
+    {
+      intervals[count - 1].second = std::max(intervals[count - 1].second, interval.second);
+    }
+    else
+    {
+      intervals[count++] = interval;
+    }
+  }
+  intervals.resize(count);
 }
 
 }
@@ -120,23 +138,40 @@ void ViewFreespace::AddTriangles(const DisparityMap& map)
 
 void ViewFreespace::LinkNeighbors()
 {
-  // Each edge from its smaller corner, with the side that saw it first.
-  std::unordered_map<std::uint64_t, std::uint64_t> open;
-  open.reserve(2 * this->Triangles.size());
-  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  // The edges that begin at each corner, taken from their smaller corner.
+  std::vector<int> begin(this->Corners.size() + 2, 0);
+  const auto ends = [this](int side)
   {
-    for (int i = 0; i < 3; ++i)
+    const auto& corner = this->Triangles[side / 3].corner;
+    return std::minmax(corner[side % 3], corner[(side + 1) % 3]);
+  };
+  const int sides = 3 * static_cast<int>(this->Triangles.size());
+  for (int side = 0; side < sides; ++side)
+  {
+    ++begin[ends(side).first + 2];
+  }
+  for (std::size_t i = 2; i < begin.size(); ++i)
+  {
+    begin[i] += begin[i - 1];
+  }
+  std::vector<int> bucket(sides);
+  for (int side = 0; side < sides; ++side)
+  {
+    bucket[begin[ends(side).first + 1]++] = side;
+  }
+  for (std::size_t c = 0; c < this->Corners.size(); ++c)
+  {
+    for (int i = begin[c]; i < begin[c + 1]; ++i)
     {
-      const auto [low, high] =
-        std::minmax(this->Triangles[t].corner[i], this->Triangles[t].corner[(i + 1) % 3]);
-      const std::uint64_t edge =
-        static_cast<std::uint64_t>(low) << 32 | static_cast<unsigned>(high);
-      const auto [other, isNew] = open.emplace(edge, 3 * t + i);
-      if (!isNew)
+      int& neighbor = this->Triangles[bucket[i] / 3].neighbor[bucket[i] % 3];
+      for (int j = i + 1; j < begin[c + 1] && neighbor < 0; ++j)
       {
-        this->Triangles[t].neighbor[i] = static_cast<int>(other->second / 3);
-        this->Triangles[other->second / 3].neighbor[other->second % 3] = static_cast<int>(t);
-        open.erase(other);
+        int& other = this->Triangles[bucket[j] / 3].neighbor[bucket[j] % 3];
+        if (other < 0 && ends(bucket[i]).second == ends(bucket[j]).second)
+        {
+          neighbor = bucket[j] / 3;
+          other = bucket[i] / 3;
+        }
       }
     }
   }
@@ -163,27 +198,21 @@ void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& vis
     double left = HUGE_VAL, right = -HUGE_VAL;
     for (int i = 0; i < corners; ++i)
     {
-      const Vector2d &a = polygon[i], &b = polygon[(i + 1) % corners];
-      if (std::max(a.y(), b.y()) < low || std::min(a.y(), b.y()) > high)
+      const Vector2d &a = polygon[i], &b = polygon[i + 1 < corners ? i + 1 : 0];
+      const double from = std::max(low, std::min(a.y(), b.y()));
+      const double to = std::min(high, std::max(a.y(), b.y()));
+      if (from > to)
       {
         continue;
       }
-      for (double y : { low, high, a.y(), b.y() })
-      {
-        const double s = a.y() == b.y() ? 0.0 : (y - a.y()) / (b.y() - a.y());
-        const double inside = std::clamp(s, 0.0, 1.0);
-        const double x = a.x() + inside * (b.x() - a.x());
-        const double at = a.y() + inside * (b.y() - a.y());
-        if (at >= low - room && at <= high + room)
-        {
-          left = std::min(left, x);
-          right = std::max(right, x);
-        }
-      }
+      const double slope = a.y() == b.y() ? 0.0 : (b.x() - a.x()) / (b.y() - a.y());
+      const double xFrom = a.x() + slope * (from - a.y()), xTo = a.x() + slope * (to - a.y());
+      left = std::min({ left, xFrom, xTo });
+      right = std::max({ right, xFrom, xTo });
       if (a.y() == b.y())
       {
-        left = std::min({ left, a.x(), b.x() });
-        right = std::max({ right, a.x(), b.x() });
+        left = std::min(left, b.x());
+        right = std::max(right, b.x());
       }
     }
     if (left <= right)
@@ -202,7 +231,8 @@ void ViewFreespace::MakeRaster()
 {
   const std::size_t cells = static_cast<std::size_t>(this->Width) * this->Height;
   this->Cells.assign(cells, { Infinity, -Infinity, -1 });
-  std::vector<std::pair<std::size_t, int>> touches;
+  std::vector<std::pair<unsigned int, int>> touches;
+  touches.reserve(8 * this->Triangles.size());
   for (std::size_t t = 0; t < this->Triangles.size(); ++t)
   {
     const Triangle& triangle = this->Triangles[t];
@@ -236,7 +266,7 @@ void ViewFreespace::MakeRaster()
         {
           cell.triangle = static_cast<int>(t);
         }
-        touches.emplace_back(index, static_cast<int>(t));
+        touches.emplace_back(static_cast<unsigned int>(index), static_cast<int>(t));
       });
   }
   // Where the border of the map passes, a cell is not wholly covered.
@@ -308,7 +338,7 @@ void ViewFreespace::MakePyramid()
 
 bool ViewFreespace::Project(const Vector3d& point, Pixel& pixel) const
 {
-  const Vector3d q = this->RasterFromWorld * point.homogeneous();
+  const Vector3d q = this->Raster(point);
   pixel = { q.x() / q.z(), q.y() / q.z(), q.z() };
   return q.z() > 0 && pixel.x >= 0 && pixel.y >= 0 && pixel.x < this->Width &&
     pixel.y < this->Height;
@@ -355,8 +385,7 @@ ViewFreespace::Walk ViewFreespace::WalkTo(double x, double y, int start) const
 // The triangle in the cell's list that holds the point, or -1.
 int ViewFreespace::LocateInCell(double x, double y) const
 {
-  const std::size_t cell =
-    static_cast<std::size_t>(static_cast<int>(y)) * this->Width + static_cast<int>(x);
+  const std::size_t cell = this->CellAt(x, y);
   for (int i = this->ListBegin[cell]; i < this->ListBegin[cell + 1]; ++i)
   {
     const auto& corner = this->Triangles[this->List[i]].corner;
@@ -451,7 +480,7 @@ Vector3d ViewFreespace::WallNormal(const Vector3d& claimed, const Vector3d& beyo
   Pixel from, to;
   const bool inRaster = this->Project(claimed, from);
   const int start = inRaster ? this->Find(from) : -1;
-  const Vector3d q = this->RasterFromWorld * beyond.homogeneous();
+  const Vector3d q = this->Raster(beyond);
   to = { q.x() / q.z(), q.y() / q.z(), q.z() };
   if (start >= 0 && to.depth > 0)
   {
@@ -469,6 +498,143 @@ Vector3d ViewFreespace::WallNormal(const Vector3d& claimed, const Vector3d& beyo
   return (claimed - beyond).normalized();
 }
 
+// The line through two corners as a homogeneous 3-vector, always from the smaller corner, see Turn.
+Vector3d ViewFreespace::LineThrough(int a, int b) const
+{
+  const Vector2d& p = this->Corners[std::min(a, b)].position;
+  const Vector2d& q = this->Corners[std::max(a, b)].position;
+  const Vector3d line(p.y() - q.y(), q.x() - p.x(), p.x() * q.y() - q.x() * p.y());
+  return a < b ? line : Vector3d(-line);
+}
+
+// Narrows a range of a segment, given in raster coordinates, to what is over a triangle and in front
+// of it. Homogeneous coordinates are linear along the segment, and so are the tests.
+void ViewFreespace::ClipToTriangle(const Triangle& triangle, const Vector3d& first,
+  const Vector3d& last, double& begin, double& end) const
+{
+  const auto clip = [&](double atFirst, double atLast)
+  {
+    if (atFirst < 0 && atLast < 0)
+    {
+      end = -1;
+    }
+    else if (atFirst < 0)
+    {
+      begin = std::max(begin, atFirst / (atFirst - atLast));
+    }
+    else if (atLast < 0)
+    {
+      end = std::min(end, atFirst / (atFirst - atLast));
+    }
+  };
+  const Corner& corner = this->Corners[triangle.corner[0]];
+  const Vector3d plane(triangle.slopeX, triangle.slopeY,
+    corner.disparity - triangle.slopeX * corner.position.x() -
+      triangle.slopeY * corner.position.y());
+  clip(1.0 - plane.dot(first), 1.0 - plane.dot(last));
+  for (int i = 0; i < 3 && begin <= end; ++i)
+  {
+    const Vector3d line = this->LineThrough(triangle.corner[i], triangle.corner[(i + 1) % 3]);
+    clip(line.dot(first), line.dot(last));
+  }
+}
+
+void ViewFreespace::FreeIntervals(
+  const Vector3d& firstPoint, const Vector3d& lastPoint, Intervals& intervals) const
+{
+  intervals.clear();
+  const Vector3d first = this->Raster(firstPoint), last = this->Raster(lastPoint);
+  // The part that is in front of the camera and over the raster.
+  double begin = 0.0, end = 1.0;
+  const auto clip = [&](double atFirst, double atLast)
+  {
+    begin = atFirst < 0 ? std::max(begin, atLast < 0 ? 2.0 : atFirst / (atFirst - atLast)) : begin;
+    end = atLast < 0 ? std::min(end, atFirst < 0 ? -1.0 : atFirst / (atFirst - atLast)) : end;
+  };
+  const double near = 1e-9 * std::max(std::abs(first.z()), std::abs(last.z()));
+  clip(first.z() - near, last.z() - near);
+  const double size[2] = { static_cast<double>(this->Width), static_cast<double>(this->Height) };
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    clip(first[axis], last[axis]);
+    clip(size[axis] * first.z() - first[axis], size[axis] * last.z() - last[axis]);
+  }
+  if (!(begin <= end) || this->Triangles.empty())
+  {
+    return;
+  }
+  const auto at = [&](double s) { return Vector3d(first + s * (last - first)); };
+  const Vector2d from = at(begin).hnormalized(), to = at(end).hnormalized();
+  int cell[2], lastCell[2];
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const int most = static_cast<int>(size[axis]) - 1;
+    cell[axis] = std::clamp(static_cast<int>(from[axis]), 0, most);
+    lastCell[axis] = std::clamp(static_cast<int>(to[axis]), 0, most);
+  }
+  double here = begin;
+  while (true)
+  {
+    // Where the segment crosses into the next cell, and over which side.
+    double next = end;
+    int side = -1;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      if (cell[axis] != lastCell[axis])
+      {
+        const double border = cell[axis] + (lastCell[axis] > cell[axis] ? 1 : 0);
+        const double a = first[axis] - border * first.z(), b = last[axis] - border * last.z();
+        const double crossing = std::clamp(a / (a - b), here, end);
+        if (side < 0 || crossing < next)
+        {
+          next = crossing;
+          side = axis;
+        }
+      }
+    }
+    this->AddFreeInCell(cell[0], cell[1], first, last, here, next, intervals);
+    if (side < 0)
+    {
+      break;
+    }
+    here = next;
+    cell[side] += lastCell[side] > cell[side] ? 1 : -1;
+  }
+  Join(intervals);
+}
+
+// The free part of the range of a segment that lies over one cell.
+void ViewFreespace::AddFreeInCell(int column, int row, const Vector3d& first, const Vector3d& last,
+  double begin, double end, Intervals& intervals) const
+{
+  const std::size_t index = static_cast<std::size_t>(row) * this->Width + column;
+  const Cell& cell = this->Cells[index];
+  if (cell.triangle < 0)
+  {
+    return;
+  }
+  const double depthBegin = first.z() + begin * (last.z() - first.z());
+  const double depthEnd = first.z() + end * (last.z() - first.z());
+  if (cell.high * std::max(depthBegin, depthEnd) < 1.0)
+  {
+    intervals.emplace_back(begin, end);
+    return;
+  }
+  if (cell.low * std::min(depthBegin, depthEnd) > 1.0)
+  {
+    return;
+  }
+  for (int i = this->ListBegin[index]; i < this->ListBegin[index + 1]; ++i)
+  {
+    double from = begin, to = end;
+    this->ClipToTriangle(this->Triangles[this->List[i]], first, last, from, to);
+    if (from < to)
+    {
+      intervals.emplace_back(from, to);
+    }
+  }
+}
+
 BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const
 {
   if (this->Triangles.empty())
@@ -476,7 +642,7 @@ BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const
     return BoxContent::Matter;
   }
   const Vector3d half = 0.5 * box.sizes();
-  const Vector3d center = this->RasterFromWorld * box.center().homogeneous();
+  const Vector3d center = this->Raster(box.center());
   const double depthReach =
     this->RasterFromWorld.row(2).head<3>().cwiseAbs().dot(half) + 1e-12 * std::abs(center.z());
   const double nearest = center.z() - depthReach;

@@ -44,6 +44,14 @@ public:
   /// the claimed side.
   Eigen::Vector3d WallNormal(const Eigen::Vector3d& claimed, const Eigen::Vector3d& beyond) const;
 
+  /// The parts of a segment that the view says are free, as ranges of [0, 1] from its first point to
+  /// its last, in ascending order and apart. Exact: along a segment all is linear within a triangle,
+  /// and neighbouring triangles hand over at exactly the same place. Time in proportion to the
+  /// segment's length in the image.
+  using Intervals = std::vector<std::pair<double, double>>;
+  void FreeIntervals(
+    const Eigen::Vector3d& first, const Eigen::Vector3d& last, Intervals& intervals) const;
+
   /// Free: the view says so for all the box; Matter: for no point of it. Conservative.
   BoxContent Classify(const Eigen::AlignedBox3d& box) const;
 
@@ -79,7 +87,14 @@ private:
     double x, y, depth;
   };
 
+  Eigen::Vector3d Raster(const Eigen::Vector3d& point) const
+  {
+    return this->RasterFromWorld.leftCols<3>() * point + this->RasterFromWorld.col(3);
+  }
   bool Project(const Eigen::Vector3d& point, Pixel& pixel) const;
+  Eigen::Vector3d LineThrough(int a, int b) const;
+  void ClipToTriangle(const Triangle& triangle, const Eigen::Vector3d& first,
+    const Eigen::Vector3d& last, double& begin, double& end) const;
   struct Walk
   {
     bool ended;   ///< false: it grew too long
@@ -87,7 +102,13 @@ private:
     int border;   ///< the edge of the triangle that it would have left the map by, or -1
   };
   Walk WalkTo(double x, double y, int start) const;
+  std::size_t CellAt(double x, double y) const
+  {
+    return static_cast<std::size_t>(static_cast<int>(y)) * this->Width + static_cast<int>(x);
+  }
   int LocateInCell(double x, double y) const;
+  void AddFreeInCell(int column, int row, const Eigen::Vector3d& first, const Eigen::Vector3d& last,
+    double begin, double end, Intervals& intervals) const;
   int Find(const Pixel& pixel) const;
   double Disparity(const Triangle& triangle, double x, double y) const;
   double Turn(int a, int b, double x, double y) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BisectionContour.h"
 
+#include "ContourBlock.h"
 #include "FreespaceUnion.h"
 #include "MeshTopology.h"
 #include "RandomMaps.h"
@@ -136,7 +137,8 @@ TEST(BisectionContour, UnionByBoxesIsTheSameAsByPoints)
     FreespaceUnionOptions unionOptions;
     unionOptions.minimumViews = 1 + seed % 2;
     const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 5), unionOptions);
-    const ContourOptions options = Cells(30 + seed);
+    ContourOptions options = Cells(30 + seed);
+    options.exact = false;
     const ContourMesh mesh = BisectionContour(phi, phi.Hull().Bounds(), options);
     const ContourMesh plain = BisectionContour(PointByPoint(phi), phi.Hull().Bounds(), options);
     EXPECT_EQ(TopologyFaults(mesh), "") << "seed " << seed;
@@ -149,6 +151,85 @@ TEST(BisectionContour, UnionByBoxesIsTheSameAsByPoints)
     EXPECT_EQ(mesh.points, threaded.points);
     EXPECT_EQ(mesh.triangles, threaded.triangles);
     EXPECT_EQ(mesh.view, threaded.view);
+  }
+}
+
+TEST(BisectionContour, ExactCrossingsAreWhereBisectionFindsThem)
+{
+  for (unsigned int seed = 0; seed < 10; ++seed)
+  {
+    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 5), {});
+    ContourOptions options = Cells(30);
+    const ContourMesh exact = BisectionContour(phi, phi.Hull().Bounds(), options);
+    options.exact = false;
+    options.tolerance = 1e-6;
+    const ContourMesh bisected = BisectionContour(phi, phi.Hull().Bounds(), options);
+    ASSERT_EQ(exact.triangles, bisected.triangles);
+    EXPECT_EQ(TopologyFaults(exact), "");
+    const double spacing = phi.Hull().Bounds().sizes().maxCoeff() / 29;
+    std::size_t far = 0, unchanged = 0, clear = 0, otherLabel = 0;
+    const Vector3d origin = ContourLattice(phi.Hull().Bounds(), options.cells).origin;
+    for (std::size_t i = 0; i < exact.points.size(); ++i)
+    {
+      // An edge that is crossed more than once has more than one answer; the surface is at each.
+      const Vector3d& p = exact.points[i];
+      const Vector3d cell = (p - origin) / spacing;
+      const Vector3d off = cell - cell.array().round().matrix();
+      Eigen::Index axis;
+      if (off.cwiseAbs().maxCoeff(&axis) > 0.0101)
+      {
+        const Vector3d step = 2e-6 * spacing * Vector3d::Unit(axis);
+        unchanged += phi.IsFree(p - step) == phi.IsFree(p + step);
+        far += (p - bisected.points[i]).norm() > 2e-6 * spacing;
+        ++clear;
+      }
+    }
+    EXPECT_GT(clear, exact.points.size() * 8 / 10);
+    EXPECT_EQ(unchanged, 0u);
+    EXPECT_LE(far, clear / 10);
+    for (std::size_t t = 0; t < exact.triangles.size(); ++t)
+    {
+      otherLabel += exact.view[t] != bisected.view[t] || exact.kind[t] != bisected.kind[t];
+    }
+    EXPECT_LE(otherLabel, exact.triangles.size() / 10);
+  }
+}
+
+TEST(BisectionContour, PiecesTogetherAreTheWhole)
+{
+  const FreespaceUnion phi(RandomMaps(6, 3), {});
+  ContourOptions options = Cells(90);
+  const ContourMesh whole = BisectionContour(phi, phi.Hull().Bounds(), options);
+  const auto corners = [](const ContourMesh& mesh, std::size_t t)
+  {
+    std::array<std::array<double, 3>, 3> triangle;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector3d& p = mesh.points[mesh.triangles[t][i]];
+      triangle[i] = { p.x(), p.y(), p.z() };
+    }
+    return triangle;
+  };
+  for (int pieces : { 2, 5, 1000 })
+  {
+    options.pieces = pieces;
+    std::size_t next = 0;
+    for (options.piece = 0; options.piece < pieces; ++options.piece)
+    {
+      const ContourMesh piece = BisectionContour(phi, phi.Hull().Bounds(), options);
+      std::vector<char> used(piece.points.size(), 0);
+      for (std::size_t t = 0; t < piece.triangles.size(); ++t, ++next)
+      {
+        ASSERT_LT(next, whole.triangles.size());
+        ASSERT_EQ(corners(piece, t), corners(whole, next));
+        for (int corner : piece.triangles[t])
+        {
+          used[corner] = 1;
+        }
+      }
+      EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+    }
+    EXPECT_EQ(next, whole.triangles.size());
   }
 }
 

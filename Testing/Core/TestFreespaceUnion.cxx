@@ -264,6 +264,40 @@ TEST(FreespaceUnion, BoxesAgreeWithTheirPoints)
   EXPECT_GT(decided, 800);
 }
 
+TEST(ViewFreespace, IntervalsOfSegmentsAgreeWithTheirPoints)
+{
+  for (unsigned int seed = 0; seed < 30; ++seed)
+  {
+    const ViewFreespace view(RandomMaps(seed, 1)[0]);
+    ViewFreespace::Intervals intervals;
+    std::size_t total = 0;
+    for (int i = 0; i < 60; ++i)
+    {
+      // Short ones and long ones, some from behind the camera.
+      const double length = i % 3 == 0 ? 0.05 : i % 3 == 1 ? 1.0 : 8.0;
+      const Vector3d first = 1.5 * Vector3d::Random();
+      const Vector3d last = first + length * Vector3d::Random();
+      view.FreeIntervals(first, last, intervals);
+      total += intervals.size();
+      for (int j = 0; j <= 200; ++j)
+      {
+        const double s = j / 200.0;
+        bool inside = false, close = false;
+        for (const auto& [begin, end] : intervals)
+        {
+          inside = inside || (s >= begin && s <= end);
+          close = close || std::abs(s - begin) < 1e-7 || std::abs(s - end) < 1e-7;
+        }
+        if (!close)
+        {
+          ASSERT_EQ(view.IsFree(first + s * (last - first)), inside) << seed << " at " << s;
+        }
+      }
+    }
+    EXPECT_GT(total, 10u);
+  }
+}
+
 TEST(FreespaceUnion, AwkwardInput)
 {
   const FreespaceUnion empty({}, {});
