@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace freespace
 {
@@ -15,24 +14,18 @@ namespace
 {
 
 // Where the colours of a side are taken, pixels from the edge.
-constexpr double SideDistances[3] = { 1.5, 3.0, 4.5 };
+constexpr double SideDistances[4] = { 1.5, 2.5, 3.5, 5.0 };
 
 // An edge pixel whose position is known to a fraction of a pixel (first pixel centre at 0, 0).
 struct EdgePoint
 {
   float x, y;
-  float gx, gy; // gradient, grey levels per pixel
-  float slope;  // its magnitude
+  float gx, gy;   // gradient, grey levels per pixel
+  float contrast; // its length, in the noise of middle grey
   int next = -1, previous = -1;
 };
 
-// The slope of the smoothed image and its magnitude.
-struct Gradient
-{
-  cv::Mat x, y, magnitude;
-};
-
-Gradient ComputeGradient(const cv::Mat& image, double sigma)
+cv::Mat SmoothGrey(const cv::Mat& image, double sigma)
 {
   cv::Mat grey, smooth;
   if (image.channels() == 3)
@@ -44,78 +37,162 @@ Gradient ComputeGradient(const cv::Mat& image, double sigma)
     grey = image;
   }
   grey.convertTo(smooth, CV_32F);
-  const int width = 2 * static_cast<int>(std::ceil(3 * sigma)) + 1;
+  const int width = 2 * static_cast<int>(std::ceil(2.5 * sigma)) + 1;
   cv::GaussianBlur(smooth, smooth, cv::Size(width, width), sigma, sigma, cv::BORDER_REPLICATE);
-  Gradient gradient;
-  const double perPixel = 1.0 / 8; // Sobel's weights add up to 4, over 2 pixels
-  cv::Sobel(smooth, gradient.x, CV_32F, 1, 0, 3, perPixel, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(smooth, gradient.y, CV_32F, 0, 1, 3, perPixel, 0, cv::BORDER_REPLICATE);
-  cv::magnitude(gradient.x, gradient.y, gradient.magnitude);
-  return gradient;
+  return smooth;
+}
+
+// Central differences of one row and the squared slope; the first and last pixel stay zero.
+struct GradientRow
+{
+  explicit GradientRow(int width)
+    : x(width, 0.0f)
+    , y(width, 0.0f)
+    , squared(width, 0.0f)
+  {
+  }
+
+  void Compute(const cv::Mat& smooth, int row)
+  {
+    const float* above = smooth.ptr<float>(row - 1);
+    const float* here = smooth.ptr<float>(row);
+    const float* below = smooth.ptr<float>(row + 1);
+    const int last = smooth.cols - 1;
+    float *gx = this->x.data(), *gy = this->y.data(), *slope = this->squared.data();
+    for (int i = 1; i < last; ++i)
+    {
+      gx[i] = 0.5f * (here[i + 1] - here[i - 1]);
+      gy[i] = 0.5f * (below[i] - above[i]);
+      slope[i] = gx[i] * gx[i] + gy[i] * gy[i];
+    }
+  }
+
+  std::vector<float> x, y, squared;
+};
+
+// Noise grows with the square root of the light, therefore so does the slope that makes an edge.
+// The offset stands for the noise without light. Slopes, squared, are scaled to those of middle
+// grey.
+float NoiseScale(float grey)
+{
+  constexpr float middle = 128, offset = 8;
+  return (middle + offset) / (std::max(grey, 0.0f) + offset);
 }
 
 // Vertex of the parabola through the logarithms at -1, 0 and 1, the middle one being the largest.
 float PeakOffset(float before, float peak, float after)
 {
-  const float floor = 0.05f * peak; // keeps the logarithm of an empty neighbour at bay
+  const float floor = 0.0025f * peak; // keeps the logarithm of an empty neighbour at bay
   const float a = std::log(std::max(before, floor) / peak);
   const float b = std::log(std::max(after, floor) / peak);
   return a + b < 0 ? 0.5f * (a - b) / (a + b) : 0.0f;
 }
 
-// Points where the slope is greatest across the edge, at most one in a pixel; `index` holds the
-// number of each pixel's point or -1.
-std::vector<EdgePoint> FindPoints(const Gradient& gradient, double lowContrast, cv::Mat& index)
+// The points of one row where the slope is greatest across the edge; `index` holds the number of
+// each pixel's point or -1.
+void FindPointsInRow(const cv::Mat& smooth, int y, const GradientRow& above, const GradientRow& row,
+  const GradientRow& below, float low, std::vector<EdgePoint>& points, int* index)
+{
+  const float* grey = smooth.ptr<float>(y);
+  const float* slope = row.squared.data();
+  // The least slope is that in the dark: a cheap test before the exact one.
+  const float least = low * low / NoiseScale(0);
+  for (int x = 1; x + 1 < smooth.cols; ++x)
+  {
+    if (slope[x] < least)
+    {
+      continue;
+    }
+    const bool alongX = std::abs(row.x[x]) >= std::abs(row.y[x]);
+    const float before = alongX ? slope[x - 1] : above.squared[x];
+    const float after = alongX ? slope[x + 1] : below.squared[x];
+    const float contrast = slope[x] * NoiseScale(grey[x]);
+    if (slope[x] > before && slope[x] >= after && contrast >= low * low)
+    {
+      const float offset = PeakOffset(before, slope[x], after);
+      index[x] = static_cast<int>(points.size());
+      points.push_back({ x + (alongX ? offset : 0), y + (alongX ? 0 : offset), row.x[x], row.y[x],
+        std::sqrt(contrast) });
+    }
+  }
+}
+
+std::vector<EdgePoint> FindPoints(const cv::Mat& smooth, double lowContrast, cv::Mat& index)
 {
   std::vector<EdgePoint> points;
-  index.create(gradient.magnitude.size(), CV_32S);
+  index.create(smooth.size(), CV_32S);
   index.setTo(-1);
-  const float low = static_cast<float>(lowContrast);
-  for (int y = 1; y + 1 < index.rows; ++y)
+  GradientRow above(smooth.cols), row(smooth.cols), below(smooth.cols);
+  row.Compute(smooth, 1);
+  for (int y = 1; y + 1 < smooth.rows; ++y)
   {
-    const float* above = gradient.magnitude.ptr<float>(y - 1);
-    const float* row = gradient.magnitude.ptr<float>(y);
-    const float* below = gradient.magnitude.ptr<float>(y + 1);
-    const float* gx = gradient.x.ptr<float>(y);
-    const float* gy = gradient.y.ptr<float>(y);
-    for (int x = 1; x + 1 < index.cols; ++x)
+    if (y + 2 < smooth.rows)
     {
-      if (row[x] < low)
-      {
-        continue;
-      }
-      const bool alongX = std::abs(gx[x]) >= std::abs(gy[x]);
-      const float before = alongX ? row[x - 1] : above[x];
-      const float after = alongX ? row[x + 1] : below[x];
-      if (!(row[x] > before && row[x] >= after))
-      {
-        continue;
-      }
-      const float offset = PeakOffset(before, row[x], after);
-      index.at<int>(y, x) = static_cast<int>(points.size());
-      points.push_back(
-        { x + (alongX ? offset : 0), y + (alongX ? 0 : offset), gx[x], gy[x], row[x] });
+      below.Compute(smooth, y + 1);
     }
+    else
+    {
+      below = GradientRow(smooth.cols);
+    }
+    FindPointsInRow(
+      smooth, y, above, row, below, static_cast<float>(lowContrast), points, index.ptr<int>(y));
+    std::swap(above, row);
+    std::swap(row, below);
   }
   return points;
 }
 
-// How well `to` continues the edge at `from`: 1 / distance, positive when it lies ahead (the
+// How well `to` continues the edge at `from`: 1 / distance^2, positive when it lies ahead (the
 // gradient pointing to the right), negative behind, 0 when the two do not belong together.
 float LinkScore(const EdgePoint& from, const EdgePoint& to)
 {
   const float dx = to.x - from.x, dy = to.y - from.y;
-  if (from.gx * to.gx + from.gy * to.gy <= 0)
-  {
-    return 0;
-  }
   const float along = dx * from.gy - dy * from.gx, alongTo = dx * to.gy - dy * to.gx;
-  if (along * alongTo <= 0)
+  if (from.gx * to.gx + from.gy * to.gy <= 0 || along * alongTo <= 0)
   {
     return 0;
   }
-  const float score = 1 / std::hypot(dx, dy);
+  const float score = 1 / (dx * dx + dy * dy);
   return along > 0 ? score : -score;
+}
+
+// The nearest points ahead of and behind a point, at most two pixels around it, with their scores.
+struct Neighbors
+{
+  int ahead = -1, behind = -1;
+  float aheadScore = 0, behindScore = 0;
+};
+
+Neighbors FindNeighbors(const std::vector<EdgePoint>& points, const cv::Mat& index, int i)
+{
+  constexpr int radius = 2;
+  const int x = static_cast<int>(std::lround(points[i].x));
+  const int y = static_cast<int>(std::lround(points[i].y));
+  Neighbors best;
+  for (int v = std::max(0, y - radius); v <= std::min(index.rows - 1, y + radius); ++v)
+  {
+    const int* row = index.ptr<int>(v);
+    for (int u = std::max(0, x - radius); u <= std::min(index.cols - 1, x + radius); ++u)
+    {
+      const int j = row[u];
+      if (j < 0 || j == i)
+      {
+        continue;
+      }
+      const float score = LinkScore(points[i], points[j]);
+      if (score > best.aheadScore)
+      {
+        best.ahead = j;
+        best.aheadScore = score;
+      }
+      else if (score < best.behindScore)
+      {
+        best.behind = j;
+        best.behindScore = score;
+      }
+    }
+  }
+  return best;
 }
 
 void Link(std::vector<EdgePoint>& points, int from, int to)
@@ -134,135 +211,163 @@ void Link(std::vector<EdgePoint>& points, int from, int to)
   b.previous = from;
 }
 
-// The nearest points ahead of and behind a point, at most `radius` pixels around it; -1 for none.
-std::array<int, 2> FindNeighbors(
-  const std::vector<EdgePoint>& points, const cv::Mat& index, int i, int radius)
-{
-  const int x = static_cast<int>(std::lround(points[i].x));
-  const int y = static_cast<int>(std::lround(points[i].y));
-  std::array<int, 2> best = { -1, -1 };
-  float ahead = 0, behind = 0;
-  for (int v = std::max(0, y - radius); v <= std::min(index.rows - 1, y + radius); ++v)
-  {
-    const int* row = index.ptr<int>(v);
-    for (int u = std::max(0, x - radius); u <= std::min(index.cols - 1, x + radius); ++u)
-    {
-      const int j = row[u];
-      if (j < 0 || j == i)
-      {
-        continue;
-      }
-      const float score = LinkScore(points[i], points[j]);
-      if (score > ahead)
-      {
-        ahead = score;
-        best[0] = j;
-      }
-      if (score < behind)
-      {
-        behind = score;
-        best[1] = j;
-      }
-    }
-  }
-  return best;
-}
-
 // Links each point to the best one ahead and behind; a point that two want goes to the nearer.
 void LinkPoints(std::vector<EdgePoint>& points, const cv::Mat& index)
 {
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
   {
-    const auto [ahead, behind] = FindNeighbors(points, index, i, 2);
-    if (ahead >= 0 && points[i].next != ahead)
+    const Neighbors best = FindNeighbors(points, index, i);
+    if (best.ahead >= 0 && points[i].next != best.ahead)
     {
-      const int rival = points[ahead].previous;
-      if (rival < 0 ||
-        LinkScore(points[rival], points[ahead]) < LinkScore(points[i], points[ahead]))
+      const int rival = points[best.ahead].previous;
+      if (rival < 0 || LinkScore(points[rival], points[best.ahead]) < best.aheadScore)
       {
-        Link(points, i, ahead);
+        Link(points, i, best.ahead);
       }
     }
-    if (behind >= 0 && points[i].previous != behind)
+    if (best.behind >= 0 && points[i].previous != best.behind)
     {
-      const int rival = points[behind].next;
-      if (rival < 0 ||
-        LinkScore(points[rival], points[behind]) > LinkScore(points[i], points[behind]))
+      const int rival = points[best.behind].next;
+      if (rival < 0 || LinkScore(points[rival], points[best.behind]) > best.behindScore)
       {
-        Link(points, behind, i);
+        Link(points, best.behind, i);
       }
     }
   }
 }
 
-// Follows the links from a point and marks the points as taken.
-std::vector<int> TakeChain(
-  const std::vector<EdgePoint>& points, int start, std::vector<char>& taken)
+// Weights that give the value of the parabola fitted to 2 * radius + 1 equally spaced values at the
+// middle one (Savitzky and Golay). Three values make no parabola worth the name: their mean.
+std::vector<double> ParabolaWeights(int radius)
 {
+  if (radius <= 1)
+  {
+    return std::vector<double>(2 * radius + 1, 1.0 / (2 * radius + 1));
+  }
+  const double n = 2 * radius + 1;
+  double s2 = 0, s4 = 0;
+  for (int j = -radius; j <= radius; ++j)
+  {
+    s2 += std::pow(j, 2);
+    s4 += std::pow(j, 4);
+  }
+  std::vector<double> weights;
+  for (int j = -radius; j <= radius; ++j)
+  {
+    weights.push_back((s4 - s2 * j * j) / (n * s4 - s2 * s2));
+  }
+  return weights;
+}
+
+// Turns linked points into tokens.
+class TokenMaker
+{
+public:
+  TokenMaker(const std::vector<EdgePoint>& points, const cv::Mat& colors, int fitRadius)
+    : Points(points)
+    , Colors(colors)
+  {
+    for (int radius = 0; radius <= fitRadius; ++radius)
+    {
+      this->Weights.push_back(ParabolaWeights(radius));
+    }
+  }
+
+  // The k-th token of a chain; a closed chain has no ends.
+  EdgeToken Make(const std::vector<int>& chain, int k, bool closed) const
+  {
+    const int size = static_cast<int>(chain.size());
+    const int greatest = static_cast<int>(this->Weights.size()) - 1;
+    const int radius =
+      closed ? std::min(greatest, (size - 1) / 2) : std::min({ greatest, k, size - 1 - k });
+    const EdgePoint& center = this->Points[chain[k]];
+    EdgeToken token;
+    token.contrast = center.contrast;
+    Eigen::Vector2d slope(center.gy, -center.gx);
+    token.position = { center.x, center.y };
+    if (radius > 0)
+    {
+      const std::vector<double>& weights = this->Weights[radius];
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero(), fitted = Eigen::Vector2d::Zero();
+      for (int j = -radius; j <= radius; ++j)
+      {
+        const int at = k + j;
+        const EdgePoint& p = this->Points[chain[at < 0 ? at + size : at >= size ? at - size : at]];
+        const Eigen::Vector2d position(p.x, p.y);
+        mean += weights[j + radius] * position;
+        fitted += j * position;
+      }
+      token.position = mean;
+      slope = fitted.dot(slope) > 0 ? fitted : slope;
+    }
+    token.position += Eigen::Vector2d(0.5, 0.5);
+    token.tangent = slope.normalized();
+    this->AddColors(token);
+    return token;
+  }
+
+private:
+  void AddColors(EdgeToken& token) const
+  {
+    token.bright.fill(0);
+    token.dark.fill(0);
+    const Eigen::Vector2d normal = token.Normal();
+    for (int k = 0; k < 4; ++k)
+    {
+      const Eigen::Vector2d offset = SideDistances[k] * normal;
+      std::copy_n(this->ColorAt(token.position + offset).val, 3, token.bright.begin() + 3 * k);
+      std::copy_n(this->ColorAt(token.position - offset).val, 3, token.dark.begin() + 3 * k);
+    }
+    std::copy_n(this->ColorAt(token.position).val, 3, token.color.begin());
+  }
+
+  const cv::Vec3b& ColorAt(const Eigen::Vector2d& pixel) const
+  {
+    const int x = std::clamp(static_cast<int>(pixel.x()), 0, this->Colors.cols - 1);
+    const int y = std::clamp(static_cast<int>(pixel.y()), 0, this->Colors.rows - 1);
+    return this->Colors.at<cv::Vec3b>(y, x);
+  }
+
+  const std::vector<EdgePoint>& Points;
+  const cv::Mat& Colors;
+  std::vector<std::vector<double>> Weights; // by radius
+};
+
+// A little blurred, so that a single sample stands for its neighbourhood.
+cv::Mat BlurredColors(const cv::Mat& image)
+{
+  cv::Mat colors;
+  cv::blur(image, colors, cv::Size(3, 3));
+  if (colors.channels() == 1)
+  {
+    cv::cvtColor(colors, colors, cv::COLOR_GRAY2BGR);
+  }
+  return colors;
+}
+
+// Follows the links from each chain's first point, then around the closed chains.
+template <typename Visitor>
+void VisitChains(const std::vector<EdgePoint>& points, Visitor&& visit)
+{
+  std::vector<char> taken(points.size(), 0);
   std::vector<int> chain;
-  for (int i = start; i >= 0 && !taken[i]; i = points[i].next)
+  for (const bool closed : { false, true })
   {
-    taken[i] = 1;
-    chain.push_back(i);
-  }
-  return chain;
-}
-
-// A parabola through the points k - radius .. k + radius of a chain (fewer at its ends).
-EdgeToken FitToken(
-  const std::vector<EdgePoint>& points, const std::vector<int>& chain, int k, int fitRadius)
-{
-  const int size = static_cast<int>(chain.size());
-  const int begin = std::max(0, k - fitRadius), end = std::min(size - 1, k + fitRadius);
-  const EdgePoint& center = points[chain[k]];
-  // Arc length as the parameter: tokens are not equally spaced.
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-  const Eigen::Vector2d along(center.gy / center.slope, -center.gx / center.slope);
-  for (int j = begin; j <= end; ++j)
-  {
-    const EdgePoint& p = points[chain[j]];
-    const Eigen::RowVector2d d(p.x - center.x, p.y - center.y);
-    const double distance = d.norm();
-    const double s = j < k ? -distance : distance;
-    const Eigen::Vector3d basis(1, s, s * s);
-    normal += basis * basis.transpose();
-    right += basis * d;
-  }
-  EdgeToken token;
-  token.position = Eigen::Vector2d(center.x + 0.5, center.y + 0.5);
-  token.tangent = along;
-  token.contrast = center.slope;
-  if (end - begin >= 4)
-  {
-    const Eigen::Matrix<double, 3, 2> fit = normal.ldlt().solve(right);
-    token.position += fit.row(0).transpose();
-    const Eigen::Vector2d tangent = fit.row(1).transpose();
-    if (tangent.dot(along) > 0)
+    for (int start = 0; start < static_cast<int>(points.size()); ++start)
     {
-      token.tangent = tangent.normalized();
+      if (taken[start] || (!closed && points[start].previous >= 0))
+      {
+        continue;
+      }
+      chain.clear();
+      for (int i = start; i >= 0 && !taken[i]; i = points[i].next)
+      {
+        taken[i] = 1;
+        chain.push_back(i);
+      }
+      visit(chain, closed);
     }
   }
-  return token;
-}
-
-const cv::Vec3b& ColorAt(const cv::Mat& colors, const Eigen::Vector2d& pixel)
-{
-  const int x = std::clamp(static_cast<int>(pixel.x()), 0, colors.cols - 1);
-  const int y = std::clamp(static_cast<int>(pixel.y()), 0, colors.rows - 1);
-  return colors.at<cv::Vec3b>(y, x);
-}
-
-EdgeSide SampleSide(const cv::Mat& colors, const EdgeToken& token, double sign)
-{
-  EdgeSide side;
-  for (int k = 0; k < 3; ++k)
-  {
-    const cv::Vec3b& color =
-      ColorAt(colors, token.position + sign * SideDistances[k] * token.Normal());
-    std::copy_n(color.val, 3, side.begin() + 3 * k);
-  }
-  return side;
 }
 
 }
@@ -289,54 +394,30 @@ EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options)
   {
     return edges;
   }
-  cv::Mat index, colors;
+  cv::Mat index;
   std::vector<EdgePoint> points =
-    FindPoints(ComputeGradient(image, options.smoothing), options.lowContrast, index);
+    FindPoints(SmoothGrey(image, options.smoothing), options.lowContrast, index);
   LinkPoints(points, index);
-  if (image.channels() == 3)
-  {
-    cv::blur(image, colors, cv::Size(3, 3));
-  }
-  else
-  {
-    cv::cvtColor(image, colors, cv::COLOR_GRAY2BGR);
-    cv::blur(colors, colors, cv::Size(3, 3));
-  }
 
-  std::vector<char> taken(points.size(), 0);
-  const auto addChain = [&](int start)
-  {
-    const std::vector<int> chain = TakeChain(points, start, taken);
-    const bool strong = std::any_of(
-      chain.begin(), chain.end(), [&](int i) { return points[i].slope >= options.highContrast; });
-    if (!strong || static_cast<int>(chain.size()) < options.minimumLength)
+  const cv::Mat colors = BlurredColors(image);
+  const TokenMaker maker(points, colors, options.fitRadius);
+  edges.tokens.reserve(points.size());
+  VisitChains(points,
+    [&](const std::vector<int>& chain, bool closed)
     {
-      return;
-    }
-    for (int k = 0; k < static_cast<int>(chain.size()); ++k)
-    {
-      EdgeToken token = FitToken(points, chain, k, options.fitRadius);
-      token.bright = SampleSide(colors, token, 1);
-      token.dark = SampleSide(colors, token, -1);
-      std::copy_n(ColorAt(colors, token.position).val, 3, token.color.begin());
-      edges.tokens.push_back(token);
-    }
-    edges.begin.push_back(static_cast<int>(edges.tokens.size()));
-  };
-  for (int i = 0; i < static_cast<int>(points.size()); ++i)
-  {
-    if (points[i].previous < 0)
-    {
-      addChain(i);
-    }
-  }
-  for (int i = 0; i < static_cast<int>(points.size()); ++i)
-  {
-    if (!taken[i]) // a closed chain
-    {
-      addChain(i);
-    }
-  }
+      const int size = static_cast<int>(chain.size());
+      const bool strong = std::any_of(chain.begin(), chain.end(),
+        [&](int i) { return points[i].contrast >= options.highContrast; });
+      if (!strong || size < options.minimumLength)
+      {
+        return;
+      }
+      for (int k = 0; k < size; ++k)
+      {
+        edges.tokens.push_back(maker.Make(chain, k, closed));
+      }
+      edges.begin.push_back(static_cast<int>(edges.tokens.size()));
+    });
   return edges;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,8 +20,9 @@ namespace freespace
 /// How edges are found in one image.
 struct EdgeTokenOptions
 {
-  double smoothing = 1.0;    ///< sigma of the Gaussian before the derivative, pixels; > 0
-  double lowContrast = 1.8;  ///< least slope of an edge, grey levels per pixel; > 0
+  double smoothing = 1.2;    ///< sigma of the Gaussian before the derivative, pixels; > 0
+  double lowContrast = 1.8;  ///< least slope of an edge at middle grey, grey levels per pixel; > 0;
+                             ///< as the noise, it is less in the dark and more in the light
   double highContrast = 4.5; ///< slope that an edge chain reaches somewhere; >= lowContrast
   int minimumLength = 8;     ///< of a chain, tokens; > 0
   int fitRadius = 4;         ///< tokens to either side that a token's position and tangent are
@@ -30,8 +32,10 @@ struct EdgeTokenOptions
   void Check() const;
 };
 
-/// What an edge looks like on one side: colours at three distances from it, blue, green, red each.
-using EdgeSide = std::array<std::uint8_t, 9>;
+/// What an edge looks like on one side: colours at four distances from it, blue, green and red
+/// each, then zeros up to a length that processors compare at once.
+using EdgeSide = std::array<std::uint8_t, 16>;
+constexpr int EdgeSideColors = 12; ///< how many of its values are used
 
 /// A piece of an image edge, about one pixel long.
 struct EdgeToken
@@ -39,12 +43,17 @@ struct EdgeToken
   Eigen::Vector2d position; ///< pixels, the centre of the first one at (0.5, 0.5)
   Eigen::Vector2d tangent;  ///< unit length, in the direction of the chain; the brighter side lies
                             ///< towards Normal(), to the right as one walks along the chain
-  float contrast = 0;       ///< slope of the grey levels across the edge, per pixel
-  EdgeSide bright;          ///< colours 1.5, 3 and 4.5 pixels from the edge on its brighter side
-  EdgeSide dark;            ///< and on the darker one
+  float contrast = 0;       ///< slope of the grey levels across the edge, per pixel, in the noise
+                            ///< of middle grey
+  EdgeSide bright; ///< colours 1.5, 2.5, 3.5 and 5 pixels from the edge on its brighter side
+  EdgeSide dark;   ///< and on the darker one
   std::array<std::uint8_t, 3> color; ///< at the edge itself, blue, green, red
 
   Eigen::Vector2d Normal() const { return { -this->tangent.y(), this->tangent.x() }; }
+
+  /// Error of the position across the edge, in units of that of a strong edge: noise shifts a
+  /// faint one more.
+  double Uncertainty() const { return std::sqrt(1 + 9 / (this->contrast * this->contrast)); }
 };
 
 /// The edges of an image, linked. Chain c consists of the tokens [begin[c], begin[c + 1]) in order.

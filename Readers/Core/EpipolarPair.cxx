@@ -34,20 +34,4 @@ EpipolarPair::EpipolarPair(const Camera& reference, const Camera& other)
   this->Baseline = line.norm() * focal;
 }
 
-EpipolarPair::Ray EpipolarPair::Apply(
-  const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel)
-{
-  const Eigen::Vector3d ray = homography * pixel.homogeneous();
-  return { ray.x() / ray.z(), ray.y() / ray.z(), ray.z() };
-}
-
-Eigen::Matrix2d EpipolarPair::Jacobian(
-  const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel)
-{
-  const Eigen::Vector3d ray = homography * pixel.homogeneous();
-  return (homography.topLeftCorner<2, 2>() -
-           ray.head<2>() / ray.z() * homography.block<1, 2>(2, 0)) /
-    ray.z();
-}
-
 }

@@ -28,15 +28,9 @@ public:
   Ray FromReference(const Eigen::Vector2d& pixel) const { return Apply(this->Reference, pixel); }
   Ray FromOther(const Eigen::Vector2d& pixel) const { return Apply(this->Other, pixel); }
 
-  /// How the rectified pixel moves with the pixel: d(u, v) / d(x, y).
-  Eigen::Matrix2d ReferenceJacobian(const Eigen::Vector2d& pixel) const
-  {
-    return Jacobian(this->Reference, pixel);
-  }
-  Eigen::Matrix2d OtherJacobian(const Eigen::Vector2d& pixel) const
-  {
-    return Jacobian(this->Other, pixel);
-  }
+  /// How the rectified pixel moves with the pixel whose ray this is: d(u, v) / d(x, y).
+  Eigen::Matrix2d ReferenceJacobian(const Ray& ray) const { return Jacobian(this->Reference, ray); }
+  Eigen::Matrix2d OtherJacobian(const Ray& ray) const { return Jacobian(this->Other, ray); }
 
   /// Disparity (1 / depth in the reference camera) of a point seen on this ray and in column u of
   /// the other image.
@@ -55,8 +49,18 @@ public:
   double Baseline;
 
 private:
-  static Ray Apply(const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel);
-  static Eigen::Matrix2d Jacobian(const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel);
+  static Ray Apply(const Eigen::Matrix3d& homography, const Eigen::Vector2d& pixel)
+  {
+    const Eigen::Vector3d ray = homography * pixel.homogeneous();
+    const double inverse = 1 / ray.z();
+    return { ray.x() * inverse, ray.y() * inverse, ray.z() };
+  }
+  static Eigen::Matrix2d Jacobian(const Eigen::Matrix3d& homography, const Ray& ray)
+  {
+    return (homography.topLeftCorner<2, 2>() -
+             Eigen::Vector2d(ray.u, ray.v) * homography.block<1, 2>(2, 0)) /
+      ray.scale;
+  }
 
   Eigen::Matrix3d Reference; // homographies from pixels to rectified rays
   Eigen::Matrix3d Other;

@@ -20,10 +20,10 @@ struct MatcherOptions
   double minimumAngle = 12;   ///< between an edge and the epipolar line, degrees; edges nearer to
                               ///< parallel are left to another triplet; (0, 90)
   double angleTolerance = 30; ///< between the directions of matching edges, degrees; (0, 90)
-  double colorTolerance = 30; ///< mean difference on the better side of the edge, grey levels; > 0
+  double colorTolerance = 60; ///< mean difference on the better side of the edge, grey levels; > 0
   double gradientLimit = 0.5; ///< change of disparity (pixels of the longest baseline) for each
                               ///< pixel along a chain that counts as continuous; > 0
-  int minimumRun = 6; ///< tokens of a chain that are matched without a break; > 0
+  int minimumRun = 6;         ///< tokens of a chain that are matched without a break; > 0
 
   /// Throws Error when a field is out of its range.
   void Check() const;

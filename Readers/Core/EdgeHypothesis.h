@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_EdgeHypothesis_h
+#define freespace_EdgeHypothesis_h
+
+namespace freespace
+{
+
+/// A token of another image that may show the same edge as a token of the reference.
+struct EdgeCandidate
+{
+  double disparity; ///< 1 / depth in the reference camera
+  double sigma;     ///< error of the disparity when the other edge is off by one pixel across
+  double shift;     ///< change of the disparity when the reference's token moves one pixel across
+  float cost;       ///< [0, 1)
+  int image;
+  int token;
+};
+
+/// Candidates of different images that agree in their disparity: support [begin, begin + count) of
+/// a list that stands beside the hypotheses. One that is empty means no match.
+struct EdgeHypothesis
+{
+  double disparity = 0;
+  double sigma = 0; ///< its error when the edges are off by one pixel across
+  double score = 0; ///< the lower the better, 0 for no match
+  int begin = 0;
+  int count = 0;
+
+  bool Empty() const { return this->count == 0; }
+
+  /// By a third image.
+  bool Confirmed() const { return this->count >= 2; }
+};
+
+}
+
+#endif

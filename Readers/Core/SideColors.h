@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_SideColors_h
+#define freespace_SideColors_h
+
+#include "EdgeTokens.h"
+
+namespace freespace
+{
+
+/// What the edges of one image look like on both sides, ready to be compared with another's.
+///
+/// Colours are compared in logarithms, 0 .. 255 brought to the same range, where another
+/// illumination is another offset; the dark end, which is mostly noise, is compressed less than a
+/// true logarithm would. The pictures of a cluster show about the same: their mean and spread are
+/// brought to those of the reference, channel by channel, which takes another exposure out.
+class SideColors
+{
+public:
+  /// The colours of `image` as `reference` has them.
+  SideColors(const EdgeChains& image, const EdgeChains& reference);
+
+  /// Mean absolute differences of the bright sides and of the dark ones, 0 .. 255.
+  std::array<float, 2> Difference(int token, const SideColors& other, int otherToken) const;
+
+private:
+  std::vector<std::array<EdgeSide, 2>> Sides; // per token
+};
+
+}
+
+#endif
