@@ -91,13 +91,13 @@ SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
 }
 
 std::array<float, 2> SideColors::Difference(
-  int token, const SideColors& other, int otherToken) const
+  int token, const SideColors& other, int otherToken, bool crossed) const
 {
   std::array<float, 2> difference;
   for (int side = 0; side < 2; ++side)
   {
     const cv::v_uint8x16 a = cv::v_load(this->Sides[token][side].data());
-    const cv::v_uint8x16 b = cv::v_load(other.Sides[otherToken][side].data());
+    const cv::v_uint8x16 b = cv::v_load(other.Sides[otherToken][crossed ? 1 - side : side].data());
     difference[side] = static_cast<float>(cv::v_reduce_sad(a, b)) / EdgeSideColors;
   }
   return difference;

@@ -19,8 +19,10 @@ public:
   /// The colours of `image` as `reference` has them.
   SideColors(const EdgeChains& image, const EdgeChains& reference);
 
-  /// Mean absolute differences of the bright sides and of the dark ones, 0 .. 255.
-  std::array<float, 2> Difference(int token, const SideColors& other, int otherToken) const;
+  /// Mean absolute differences, 0 .. 255, between the bright sides and between the dark ones;
+  /// crossed: of the bright side to the other's dark one, and the other way round.
+  std::array<float, 2> Difference(
+    int token, const SideColors& other, int otherToken, bool crossed) const;
 
 private:
   std::vector<std::array<EdgeSide, 2>> Sides; // per token

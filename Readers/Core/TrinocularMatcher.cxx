@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TrinocularMatcher.h"
 
+#include "DisparityPrior.h"
 #include "EdgeRuns.h"
 #include "EpipolarIndex.h"
 #include "Error.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <tuple>
 
 namespace freespace
@@ -59,7 +61,16 @@ public:
   std::vector<EdgeMatch> Match()
   {
     this->Chosen.resize(this->Edges.tokens.size());
+    std::vector<std::size_t> ambiguous; // chains
     for (std::size_t chain = 0; chain < this->Edges.NumberOfChains(); ++chain)
+    {
+      if (this->ChooseAlongChain(this->Edges.begin[chain], this->Edges.begin[chain + 1]))
+      {
+        ambiguous.push_back(chain);
+      }
+    }
+    this->LearnPrior(ambiguous);
+    for (std::size_t chain : ambiguous)
     {
       this->ChooseAlongChain(this->Edges.begin[chain], this->Edges.begin[chain + 1]);
     }
@@ -69,6 +80,28 @@ public:
   }
 
 private:
+  // What the chains that are sure of their match tell about the others' surroundings.
+  void LearnPrior(const std::vector<std::size_t>& ambiguous)
+  {
+    std::vector<char> sure(this->Edges.tokens.size(), 1);
+    for (std::size_t chain : ambiguous)
+    {
+      std::fill(
+        sure.begin() + this->Edges.begin[chain], sure.begin() + this->Edges.begin[chain + 1], 0);
+    }
+    std::vector<Eigen::Vector2d> pixels;
+    std::vector<double> disparities;
+    for (std::size_t i = 0; i < sure.size(); ++i)
+    {
+      if (sure[i] && this->Chosen[i].Confirmed())
+      {
+        pixels.push_back(this->Edges.tokens[i].position);
+        disparities.push_back(this->Chosen[i].disparity);
+      }
+    }
+    this->Prior = std::make_unique<DisparityPrior>(pixels, disparities);
+  }
+
   // The edges of one image on the epipolar line of a token.
   void FindCandidates(int tokenIndex, int image)
   {
@@ -91,16 +124,19 @@ private:
     const float tangentV = static_cast<float>(tangent.y());
     const float near = static_cast<float>(search.pair.Column(ray, this->Options.maximumDisparity));
     const float far = static_cast<float>(search.pair.Column(ray, this->Options.minimumDisparity));
-    // Along the epipolar line, both edges go from dark to bright or both from bright to dark.
+    // Along the epipolar line, both edges go from dark to bright or both from bright to dark. Not
+    // so on the silhouette of something that is brighter than what it hides here and darker there.
     const bool down = tangentV > 0;
+    bool crossed = false;
     const auto visit = [&](const EpipolarIndex::Segment& segment, float u)
     {
-      const float alignment = tangentU * segment.tangentU + tangentV * segment.tangentV;
+      const float alignment = std::abs(tangentU * segment.tangentU + tangentV * segment.tangentV);
       if (alignment < this->MinimumCosine)
       {
         return;
       }
-      const float cost = this->CompareTokens(tokenIndex, search.colors, segment.token, alignment);
+      const float cost =
+        this->CompareTokens(tokenIndex, search.colors, segment.token, crossed, alignment);
       if (cost < 1)
       {
         const double slope = segment.tangentU / segment.tangentV;
@@ -110,17 +146,22 @@ private:
       }
     };
     search.index.VisitRow(ray.v, down, near, far, visit);
+    crossed = true;
+    search.index.VisitRow(ray.v, !down, near, far, visit);
   }
 
   // 0 for the same look, 1 or more for edges that cannot be the same. The better side decides,
-  // which on a silhouette is that of the object; the other one has a little say.
-  float CompareTokens(int token, const SideColors& colors, int other, float alignment) const
+  // which on a silhouette is that of the object; the other one has a little say. When bright and
+  // dark are crossed, one side must be much the same.
+  float CompareTokens(
+    int token, const SideColors& colors, int other, bool crossed, float alignment) const
   {
-    constexpr float worseSide = 0.2f, direction = 0.2f;
-    const float tolerance = static_cast<float>(this->Options.colorTolerance);
-    const auto [bright, dark] = this->Colors.Difference(token, colors, other);
-    const float better = std::min(bright, dark) / tolerance;
-    const float worse = std::min(1.0f, std::max(bright, dark) / tolerance);
+    constexpr float worseSide = 0.2f, direction = 0.2f, strictness = 2.5f;
+    const float scale =
+      (crossed ? strictness : 1) / static_cast<float>(this->Options.colorTolerance);
+    const auto [bright, dark] = this->Colors.Difference(token, colors, other, crossed);
+    const float better = std::min(bright, dark) * scale;
+    const float worse = std::min(1.0f, std::max(bright, dark) * scale);
     return better >= 1 ? 1
                        : (1 - worseSide - direction) * better + worseSide * worse +
         direction * (1 - alignment) / static_cast<float>(1 - this->MinimumCosine);
@@ -202,8 +243,24 @@ private:
       }
       this->Confirm(seed, begin, end);
     }
+    this->ApplyPrior(token);
     this->KeepBest();
     this->States.emplace_back(); // no match
+  }
+
+  // A repeated pattern matches itself at several disparities: the one that is usual around it wins.
+  void ApplyPrior(int token)
+  {
+    constexpr double weight = 0.4, scale = 8; // pixels of the longest baseline
+    const double usual = this->Prior ? this->Prior->At(this->Edges.tokens[token].position) : 0;
+    for (EdgeHypothesis& hypothesis : this->Found)
+    {
+      if (usual > 0)
+      {
+        const double off = std::abs(hypothesis.disparity - usual) * this->Baseline / scale;
+        hypothesis.score += weight * std::min(1.0, off);
+      }
+    }
   }
 
   // Hypotheses less than half a tolerance apart are the same one.
@@ -246,8 +303,9 @@ private:
   }
 
   // Dynamic programming over the states of the tokens begin .. end - 1: the sum of the scores and
-  // of the transitions becomes least.
-  void ChooseAlongChain(int begin, int end)
+  // of the transitions becomes least. Returns whether another match would have been about as good
+  // for most of the tokens.
+  bool ChooseAlongChain(int begin, int end)
   {
     this->States.clear();
     this->Scratch.clear();
@@ -279,11 +337,30 @@ private:
     }
     int state =
       static_cast<int>(std::min_element(cost.begin() + first.back(), cost.end()) - cost.begin());
+    int matched = 0, ambiguous = 0;
     for (int token = end - 1; token >= begin; --token)
     {
+      matched += this->States[state].Confirmed();
+      ambiguous += this->HasRival(state, first[token - begin]);
       this->Choose(token, this->States[state]);
       state = from[state];
     }
+    return 2 * ambiguous > matched;
+  }
+
+  // Whether a token with these states has another one that is about as good as the one chosen.
+  bool HasRival(int chosen, int first) const
+  {
+    constexpr double margin = 0.3;
+    for (int s = first; !this->States[s].Empty() && this->States[chosen].Confirmed(); ++s)
+    {
+      if (s != chosen && this->States[s].Confirmed() &&
+        this->States[s].score < this->States[chosen].score + margin)
+      {
+        return true;
+      }
+    }
+    return false;
   }
 
   void Choose(int token, const EdgeHypothesis& hypothesis)
@@ -343,6 +420,8 @@ private:
   SideColors Colors; // of the reference
   std::vector<SearchImage> Images;
   double Baseline = 0; // the longest one
+
+  std::unique_ptr<DisparityPrior> Prior; // none in the first round
 
   // One token's.
   std::vector<EdgeCandidate> Candidates;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_DisparityPrior_h
+#define freespace_DisparityPrior_h
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace freespace
+{
+
+/// What disparity to expect in a part of an image, by the matches that are known around it: the
+/// median of those in the same cell of a coarse grid or in the nearest one that has any.
+class DisparityPrior
+{
+public:
+  DisparityPrior(
+    const std::vector<Eigen::Vector2d>& pixels, const std::vector<double>& disparities);
+
+  /// 0 when nothing is known anywhere.
+  double At(const Eigen::Vector2d& pixel) const;
+
+private:
+  static constexpr double CellSize = 16; // pixels
+
+  int CellOf(const Eigen::Vector2d& pixel) const;
+  void SpreadToEmptyCells();
+
+  int Columns = 0;
+  int Rows = 0;
+  std::vector<double> Disparity; // per cell
+};
+
+}
+
+#endif
