@@ -6,7 +6,9 @@
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace freespace
 {
@@ -224,6 +226,95 @@ void FeatureHull::AddPlane(const Vector3d& normal, double offset)
 }
 
 int FeatureHull::NearestPlane(const Vector3d& point) const
+{
+  if (!this->Box.contains(point))
+  {
+    return this->NearestOfAll(point);
+  }
+  std::call_once(this->IsSplit,
+    [this]
+    {
+      this->Nodes.emplace_back();
+      this->Nodes[0].planes.resize(this->NumberOfPlanes());
+      std::iota(this->Nodes[0].planes.begin(), this->Nodes[0].planes.end(), 0);
+      this->Split(0, this->Box, 0);
+    });
+  Vector3d low = this->Box.min(), size = this->Box.sizes();
+  int node = 0;
+  while (this->Nodes[node].first >= 0)
+  {
+    size *= 0.5;
+    int child = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const bool upper = point[axis] >= low[axis] + size[axis];
+      low[axis] += upper ? size[axis] : 0.0;
+      child |= upper << axis;
+    }
+    node = this->Nodes[node].first + child;
+  }
+  const std::vector<int>& planes = this->Nodes[node].planes;
+  return *std::max_element(planes.begin(), planes.end(),
+    [&](int a, int b) { return this->Distance(a, point) < this->Distance(b, point); });
+}
+
+void FeatureHull::Split(int node, const Eigen::AlignedBox3d& box, int depth) const
+{
+  constexpr std::size_t Few = 6;
+  constexpr int Deepest = 5;
+  if (this->Nodes[node].planes.size() <= Few || depth == Deepest)
+  {
+    return;
+  }
+  const int first = static_cast<int>(this->Nodes.size());
+  this->Nodes[node].first = first;
+  this->Nodes.resize(first + 8);
+  const std::vector<int> planes = std::move(this->Nodes[node].planes);
+  const Vector3d half = 0.5 * box.sizes();
+  for (int child = 0; child < 8; ++child)
+  {
+    const Vector3d low =
+      box.min() + Vector3d(child & 1, child >> 1 & 1, child >> 2 & 1).cwiseProduct(half);
+    const Eigen::AlignedBox3d part(low, low + half);
+    this->Nodes[first + child].planes = this->Nearest(part, planes);
+    this->Split(first + child, part, depth + 1);
+  }
+}
+
+// Those planes that can be the nearest somewhere in a box: a plane that lies further at all eight
+// corners than one other plane does so everywhere between. Only the corners' nearest are tried as
+// such others.
+std::vector<int> FeatureHull::Nearest(
+  const Eigen::AlignedBox3d& box, const std::vector<int>& planes) const
+{
+  using Corners = Eigen::Array<double, 8, 1>;
+  const double room = 1e-9 * box.diagonal().norm();
+  std::vector<Corners> distances(planes.size());
+  std::array<std::size_t, 8> nearest = {};
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      distances[i][corner] =
+        this->Distance(planes[i], box.corner(Eigen::AlignedBox3d::CornerType(corner)));
+      nearest[corner] =
+        distances[i][corner] > distances[nearest[corner]][corner] ? i : nearest[corner];
+    }
+  }
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    const bool never = std::any_of(nearest.begin(), nearest.end(),
+      [&](std::size_t other) { return (distances[i] + room < distances[other]).all(); });
+    if (!never)
+    {
+      kept.push_back(planes[i]);
+    }
+  }
+  return kept;
+}
+
+int FeatureHull::NearestOfAll(const Vector3d& point) const
 {
   int nearest = -1;
   double greatest = -HUGE_VAL;

@@ -4,6 +4,8 @@
 
 #include "ContourField.h"
 
+#include <mutex>
+
 namespace freespace
 {
 
@@ -38,18 +40,34 @@ public:
 
   /// The plane that the point is furthest out of. Its distance is, inside, the exact distance to
   /// the hull (negative) and, outside, no more than the true one. -1 without points.
+  /// Inside the bounds it looks only at the few planes that can be the nearest in a part of them.
   int NearestPlane(const Eigen::Vector3d& point) const;
+
+  /// The same by looking at every plane.
+  int NearestOfAll(const Eigen::Vector3d& point) const;
 
   /// What a box holds, given the planes that are still open; `open` gets those left.
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const std::vector<int>& parent, std::vector<int>& open) const;
 
 private:
+  /// A box of an octree over the bounds: eight children from First on, or the planes that can be the
+  /// nearest in it.
+  struct Node
+  {
+    int first = -1;
+    std::vector<int> planes;
+  };
+
   void AddPlane(const Eigen::Vector3d& normal, double offset);
+  void Split(int node, const Eigen::AlignedBox3d& box, int depth) const;
+  std::vector<int> Nearest(const Eigen::AlignedBox3d& box, const std::vector<int>& planes) const;
 
   Eigen::Matrix3Xd Normals; ///< unit length
   Eigen::VectorXd Offsets;
   Eigen::AlignedBox3d Box;
+  mutable std::once_flag IsSplit; ///< the octree is made when it is first needed
+  mutable std::vector<Node> Nodes;
 };
 
 }

@@ -135,6 +135,26 @@ TEST(FeatureHull, LeavingOutInnerPointsChangesNothing)
   EXPECT_NEAR(touched, 0.0, 1e-12);
 }
 
+TEST(FeatureHull, TheNearestPlaneIsTheNearestOfAll)
+{
+  std::srand(4);
+  std::vector<Vector3d> points(3000);
+  for (Vector3d& p : points)
+  {
+    // A box with noise, as of a board: facets by the hundred, nearly parallel.
+    p = Vector3d::Random();
+    p[std::rand() % 3] = (std::rand() % 2 ? 1.0 : -1.0) + 1e-3 * Vector3d::Random().x();
+  }
+  const FeatureHull hull(points, 0.02);
+  EXPECT_GT(hull.NumberOfPlanes(), 100);
+  for (int i = 0; i < 20000; ++i)
+  {
+    const Vector3d x = (i % 2 ? 1.03 : 1.5) * Vector3d::Random();
+    EXPECT_NEAR(
+      hull.Distance(hull.NearestPlane(x), x), hull.Distance(hull.NearestOfAll(x), x), 1e-9);
+  }
+}
+
 TEST(FeatureHull, WithoutVolumeTheMarginGivesOne)
 {
   const Vector3d o(1, 2, 3), u(1, 0.5, 0), v(0, 1, 1);
