@@ -3,10 +3,12 @@
 
 #include "Picture.h"
 #include "Session.h"
+#include "SparseStage.h"
 #include "Stages.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
+#include <vtkSparseModelReader.h>
 
 #include <memory>
 
@@ -22,21 +24,26 @@ struct Settings
   std::string output;
   std::string picture;
   StereoStage stereo;
+  SparseStage sparse;
   TriangulateStage triangulate;
   ContourStage contour;
 };
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
-  command.add_option("scene", settings.scene, "The scene.json")
+  command
+    .add_option("scene", settings.scene,
+      "A scene.json, or a structure-from-motion model: a folder with COLMAP's files, a bundle.out "
+      "or a .nvm")
     ->required()
-    ->type_name("SCENE.json");
+    ->type_name("SCENE.json|MODEL");
   command.add_option("-o,--output", settings.output, "The surface to write (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("MESH.ply");
   command.add_option("--picture", settings.picture, "Write a picture of the surface, too")
     ->type_name("OUT.png");
   settings.stereo.AddOptions(command);
+  settings.sparse.AddOptions(command);
   settings.triangulate.AddOptions(command);
   settings.contour.AddOptions(command);
 }
@@ -44,7 +51,9 @@ void AddOptions(CLI::App& command, Settings& settings)
 void Reconstruct(Session& session, const Settings& settings)
 {
   CheckSurfaceName(settings.output);
-  const auto features = settings.stereo.Run(session, settings.scene);
+  const auto features = vtkSparseModelReader::CanReadFile(settings.scene)
+    ? settings.sparse.Run(session, settings.scene)
+    : settings.stereo.Run(session, settings.scene);
   const auto maps = settings.triangulate.Run(session, features);
   const auto surface = settings.contour.Run(session, maps);
   WriteSurface(session, surface, settings.output);
@@ -59,11 +68,12 @@ void Reconstruct(Session& session, const Settings& settings)
 void AddReconstructCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
-  CLI::App* command =
-    program.add_subcommand("reconstruct", "Make a surface from photographs: all stages in one");
+  CLI::App* command = program.add_subcommand("reconstruct",
+    "Make a surface from photographs or a structure-from-motion model: all stages in one");
   AddOptions(*command, *settings);
   command->footer("Example:\n"
-                  "  freespace reconstruct scene.json -o mesh.ply --cells 256 --picture mesh.png");
+                  "  freespace reconstruct scene.json -o mesh.ply --cells 256 --picture mesh.png\n"
+                  "  freespace reconstruct colmap/sparse/0 -o mesh.ply");
   command->callback([settings, &session]() { Reconstruct(session, *settings); });
 }
 

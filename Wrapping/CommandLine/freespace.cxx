@@ -64,6 +64,8 @@ int Run(int argc, char* argv[])
       }
     });
   freespace::AddReconstructCommand(program, session);
+  freespace::AddSparseCommand(program, session);
+  freespace::AddCalibrateCommand(program, session);
   freespace::AddClustersCommand(program, session);
   freespace::AddStereoCommand(program, session);
   freespace::AddTriangulateCommand(program, session);
