@@ -2,6 +2,7 @@
 #include "vtkDelaunayDisparityFilter.h"
 
 #include "AlgorithmProgress.h"
+#include "ContinueBackground.h"
 #include "DelaunayDisparity.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
@@ -20,11 +21,20 @@ int vtkDelaunayDisparityFilter::RequestData(
   freespace::DelaunayDisparityOptions options;
   options.minimumDisparity = this->MinimumDisparity != 0;
   options.tolerance = this->Tolerance;
+  freespace::ContinueBackgroundOptions background;
+  background.grazingAngle = this->GrazingAngle;
+  background.views = this->RefutingViews;
   try
   {
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
-    const std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-      views, options, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
+    std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
+      views, options, freespace::SMPParallelFor, progress.Part(0.0, 0.6));
+    if (this->ContinueBackground)
+    {
+      freespace::ContinueBackground(maps, views, background, freespace::SMPParallelFor);
+    }
+    progress(0.9);
     for (std::size_t i = 0; i < maps.size(); ++i)
     {
       freespace::SetNamedBlock(
@@ -49,4 +59,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "ContinueBackground: " << this->ContinueBackground << "\n";
+  os << indent << "GrazingAngle: " << this->GrazingAngle << "\n";
+  os << indent << "RefutingViews: " << this->RefutingViews << "\n";
 }

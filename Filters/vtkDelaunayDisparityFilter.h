@@ -15,6 +15,12 @@
  * where they are in front of the camera and project into the convex hull of the view's own
  * features.
  *
+ * Beyond the paper, with ContinueBackground on: where a near edge occludes a far surface the
+ * triangulation joins the two by bridges that no surface carries. A bridge, seen at GrazingAngle or
+ * more to its normal, through which RefutingViews other views see, has its near corners set back to the surface
+ * behind: the one that another view has there, or else the plane of the far features around. Off is
+ * the paper.
+ *
  * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader and vtkFeatureSupportFilter make
  * it. Output: the same blocks with triangles. Point data: `ImagePoint` (double x2, pixels) is where
  * the world point projects, which for a view's own features can differ from where it was seen;
@@ -59,6 +65,33 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether the background is continued below bridges that other views see through. Off is the paper.
+   * Default on.
+   */
+  vtkSetMacro(ContinueBackground, vtkTypeBool);
+  vtkGetMacro(ContinueBackground, vtkTypeBool);
+  vtkBooleanMacro(ContinueBackground, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The angle to its normal, degrees, from which a triangle that spans a jump is taken for a bridge.
+   * Default 70.
+   */
+  vtkSetMacro(GrazingAngle, double);
+  vtkGetMacro(GrazingAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many other views must see through a bridge. Default 1.
+   */
+  vtkSetMacro(RefutingViews, int);
+  vtkGetMacro(RefutingViews, int);
+  ///@}
+
 protected:
   vtkDelaunayDisparityFilter() = default;
   ~vtkDelaunayDisparityFilter() override = default;
@@ -67,6 +100,9 @@ protected:
 
   vtkTypeBool MinimumDisparity = 1;
   double Tolerance = 5e-4;
+  vtkTypeBool ContinueBackground = 1;
+  double GrazingAngle = 70.0;
+  int RefutingViews = 1;
 
 private:
   vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;

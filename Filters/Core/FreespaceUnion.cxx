@@ -65,12 +65,13 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   for (const DisparityMap& map : maps)
   {
     CheckTriangles(map);
-    for (const Vector3d& point : map.points)
+    for (std::size_t i = 0; i < map.points.size(); ++i)
     {
-      if (point.allFinite())
+      const bool isFeature = i >= map.sourceView.size() || map.sourceView[i] >= 0;
+      if (isFeature && map.points[i].allFinite())
       {
-        features.push_back(point);
-        box.extend(point);
+        features.push_back(map.points[i]);
+        box.extend(map.points[i]);
       }
     }
   }

@@ -36,7 +36,8 @@ struct EdgeView : View
 /// in the pixel, which makes each image triangle the image of one space triangle.
 struct DisparityMap : View
 {
-  std::vector<int> sourceView;               ///< per point: index of the view that supplied it
+  std::vector<int> sourceView;               ///< per point: index of the view that supplied it;
+                                             ///< -1: no feature, but the background behind an edge
   std::vector<std::array<int, 3>> triangles; ///< counter-clockwise in pixel coordinates (y down)
 };
 

@@ -90,6 +90,7 @@ TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)
     vtkNew<vtkDelaunayDisparityFilter> filter;
     filter->SetInputDataObject(Blocks(views));
     filter->SetTolerance(0.002);
+    filter->ContinueBackgroundOff();
     filter->Update();
     ExpectSameMaps(MapsFromBlocks(filter->GetOutput()), expected);
   }
@@ -101,6 +102,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   vtkNew<vtkDelaunayDisparityFilter> filter;
   filter->SetInputDataObject(Blocks(views));
   filter->MinimumDisparityOff();
+  filter->ContinueBackgroundOff();
   filter->Update();
   const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
   ASSERT_EQ(maps.size(), views.size());

@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ContinueBackground.h"
+
+#include "Error.h"
+#include "ViewFreespace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace freespace
+{
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+// In units of the noise: what is more is a jump, seen through, not a plane, sticks out.
+constexpr double LeastJump = 10;
+constexpr double SeeThrough = 4;
+constexpr double Flatness = 2;
+constexpr double SticksOut = 2;
+
+// A map with what is asked of it again and again.
+struct Scene
+{
+  Scene(const DisparityMap& map, const ContinueBackgroundOptions& options);
+
+  bool Spans(std::size_t triangle, const ContinueBackgroundOptions& options) const;
+
+  const DisparityMap& map;
+  ViewFreespace freespace;
+  std::vector<double> disparity;             // per point
+  std::vector<char> isBridge;                // per triangle
+  std::vector<std::vector<int>> soundAround; // per point, the triangles that are no bridges
+};
+
+Scene::Scene(const DisparityMap& given, const ContinueBackgroundOptions& options)
+  : map(given)
+  , freespace(given)
+  , isBridge(given.triangles.size())
+  , soundAround(given.points.size())
+{
+  for (const Vector3d& point : given.points)
+  {
+    this->disparity.push_back(1 / given.camera.Depth(point));
+  }
+  for (std::size_t t = 0; t < given.triangles.size(); ++t)
+  {
+    this->isBridge[t] = this->Spans(t, options);
+    for (int corner : given.triangles[t])
+    {
+      if (!this->isBridge[t])
+      {
+        this->soundAround[corner].push_back(static_cast<int>(t));
+      }
+    }
+  }
+}
+
+// Whether a triangle spans a jump: far deeper than noise, and seen almost from its edge.
+bool Scene::Spans(std::size_t triangle, const ContinueBackgroundOptions& options) const
+{
+  const auto [a, b, c] = this->map.triangles[triangle];
+  const auto [far, near] =
+    std::minmax({ this->disparity[a], this->disparity[b], this->disparity[c] });
+  const Vector3d& p = this->map.points[a];
+  const Vector3d& q = this->map.points[b];
+  const Vector3d& r = this->map.points[c];
+  const Vector3d normal = (q - p).cross(r - p);
+  const Vector3d sight = (p + q + r) / 3 - this->map.camera.Center();
+  return near > far * (1 + LeastJump * options.noise) &&
+    std::abs(normal.dot(sight)) <
+    std::cos(options.grazingAngle * M_PI / 180) * normal.norm() * sight.norm();
+}
+
+// Works on one view, with all others around it.
+class BackgroundContinuer
+{
+public:
+  BackgroundContinuer(const std::vector<std::unique_ptr<Scene>>& scenes, std::size_t index,
+    const ContinueBackgroundOptions& options)
+    : Scenes(scenes)
+    , Index(index)
+    , Options(options)
+    , Own(*scenes[index])
+    , Stamp(this->Own.map.points.size(), -1)
+  {
+  }
+
+  DisparityMap Continue(const std::vector<View>& views);
+
+private:
+  struct SetBackBridge
+  {
+    std::size_t triangle;
+    std::array<double, 3> disparity; // at its corners, once it is set back
+  };
+
+  std::vector<SetBackBridge> RefutedBridges();
+  std::vector<std::vector<Vector3d>> PointsInBridges(const std::vector<View>& views) const;
+  double MiddleOfJump(std::size_t triangle) const;
+  bool IsRefuted(std::size_t triangle) const;
+  std::optional<double> SetBack(std::size_t triangle, int near);
+  std::optional<double> PlaneAround(int far, const Vector2d& pixel);
+  std::vector<int> FarPointsAround(int far, double radius);
+  double SurfaceBehind(const Vector2d& pixel, double from, double to) const;
+  std::optional<double> Crossing(
+    const Scene& other, const Vector2d& pixel, double from, double to) const;
+  bool IsViolated(std::size_t triangle, const std::array<double, 3>& disparity,
+    const std::vector<Vector3d>& points) const;
+  double DistanceToNearSide(std::size_t triangle, const Vector2d& pixel) const;
+
+  const std::vector<std::unique_ptr<Scene>>& Scenes;
+  std::size_t Index;
+  const ContinueBackgroundOptions& Options;
+  const Scene& Own;
+  std::vector<int> Stamp; // of the last search that came by a point
+  int Search = 0;
+};
+
+double BackgroundContinuer::MiddleOfJump(std::size_t triangle) const
+{
+  const auto [a, b, c] = this->Own.map.triangles[triangle];
+  const auto [far, near] =
+    std::minmax({ this->Own.disparity[a], this->Own.disparity[b], this->Own.disparity[c] });
+  return (far + near) / 2;
+}
+
+// Whether other views see through the bridge, at one of some places well inside it.
+bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
+{
+  const auto& corner = this->Own.map.triangles[triangle];
+  const double third = 1.0 / 3;
+  for (const Vector3d& weight : { Vector3d(third, third, third), Vector3d(0.6, 0.2, 0.2),
+         Vector3d(0.2, 0.6, 0.2), Vector3d(0.2, 0.2, 0.6) })
+  {
+    Vector3d place = Vector3d::Zero();
+    for (int i = 0; i < 3; ++i)
+    {
+      place += weight[i] * this->Own.map.points[corner[i]];
+    }
+    int seenThrough = 0;
+    for (std::size_t v = 0; v < this->Scenes.size(); ++v)
+    {
+      const ViewFreespace::Sample sample = this->Scenes[v]->freespace.At(place);
+      const double depth = this->Scenes[v]->map.camera.Depth(place);
+      seenThrough += v != this->Index && sample.triangle >= 0 &&
+        sample.value > SeeThrough * this->Options.noise * depth;
+    }
+    if (seenThrough >= this->Options.views)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Points around a far one, over triangles that are no bridges.
+std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
+{
+  constexpr std::size_t enough = 200;
+  const DisparityMap& map = this->Own.map;
+  std::vector<int> found = { far };
+  this->Stamp[far] = ++this->Search;
+  for (std::size_t i = 0; i < found.size() && found.size() < enough; ++i)
+  {
+    for (int t : this->Own.soundAround[found[i]])
+    {
+      for (int corner : map.triangles[t])
+      {
+        if (this->Stamp[corner] != this->Search &&
+          (map.imagePoints[corner] - map.imagePoints[far]).norm() <= radius)
+        {
+          this->Stamp[corner] = this->Search;
+          found.push_back(corner);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+// The disparity at a pixel of the plane through the points around a far one, as widely as the pixel
+// is away; none where they do not lie in a plane.
+std::optional<double> BackgroundContinuer::PlaneAround(int far, const Vector2d& pixel)
+{
+  constexpr double leastRadius = 8; // pixels
+  const DisparityMap& map = this->Own.map;
+  const double radius = std::max(leastRadius, (pixel - map.imagePoints[far]).norm());
+  const std::vector<int> points = this->FarPointsAround(far, radius);
+  Eigen::MatrixX3d equations(points.size(), 3);
+  Eigen::VectorXd disparity(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    equations.row(i) << (map.imagePoints[points[i]] - pixel).transpose() / radius, 1;
+    disparity[i] = this->Own.disparity[points[i]];
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(equations);
+  if (points.size() < 3 || solver.rank() < 3)
+  {
+    return {};
+  }
+  const Vector3d plane = solver.solve(disparity);
+  const double deviation =
+    (equations * plane - disparity).norm() / std::sqrt(static_cast<double>(points.size()));
+  return deviation <= Flatness * this->Options.noise * disparity.mean()
+    ? std::optional<double>(plane[2])
+    : std::nullopt;
+}
+
+// Where a ray of this view goes into the surface of another one, coming through its free space;
+// between two disparities. Only a surface counts: neither a bridge nor the edge of the map.
+std::optional<double> BackgroundContinuer::Crossing(
+  const Scene& other, const Vector2d& pixel, double from, double to) const
+{
+  constexpr int steps = 24, bisections = 12;
+  const Camera& camera = this->Own.map.camera;
+  const auto at = [&](double disparity)
+  { return other.freespace.At(camera.Unproject(pixel, 1 / disparity)); };
+  bool wasFree = false;
+  for (int i = 0; i <= steps; ++i)
+  {
+    const ViewFreespace::Sample sample = at(from + (to - from) * i / steps);
+    const bool isFree = sample.triangle >= 0 && sample.value > 0;
+    if (wasFree && !isFree)
+    {
+      double free = from + (to - from) * (i - 1) / steps;
+      double matter = from + (to - from) * i / steps;
+      for (int b = 0; b < bisections; ++b)
+      {
+        const double middle = (free + matter) / 2;
+        const ViewFreespace::Sample half = at(middle);
+        (half.triangle >= 0 && half.value > 0 ? free : matter) = middle;
+      }
+      const ViewFreespace::Sample behind = at(matter);
+      const double depth = other.map.camera.Depth(camera.Unproject(pixel, 1 / matter));
+      const bool isSurface = behind.triangle >= 0 && !other.isBridge[behind.triangle] &&
+        std::abs(behind.value) < SeeThrough * this->Options.noise * depth;
+      if (isSurface)
+      {
+        return free;
+      }
+    }
+    wasFree = isFree;
+  }
+  return {};
+}
+
+// The first of the other views' surfaces behind the jump's middle; 0 where there is none.
+double BackgroundContinuer::SurfaceBehind(const Vector2d& pixel, double from, double to) const
+{
+  double nearest = 0;
+  for (std::size_t v = 0; v < this->Scenes.size(); ++v)
+  {
+    if (v != this->Index)
+    {
+      nearest = std::max(nearest, this->Crossing(*this->Scenes[v], pixel, from, to).value_or(0));
+    }
+  }
+  return nearest;
+}
+
+// The background's disparity at a near corner of a bridge; none where it is not known.
+std::optional<double> BackgroundContinuer::SetBack(std::size_t triangle, int near)
+{
+  const double middle = this->MiddleOfJump(triangle);
+  const Vector2d& pixel = this->Own.map.imagePoints[near];
+  double sum = 0, farthest = this->Own.disparity[near];
+  int planes = 0;
+  for (int corner : this->Own.map.triangles[triangle])
+  {
+    const double disparity = this->Own.disparity[corner];
+    farthest = std::min(farthest, disparity);
+    if (disparity <= middle)
+    {
+      if (const auto plane = this->PlaneAround(corner, pixel))
+      {
+        sum += std::max(*plane, disparity); // never deeper than what is seen
+        ++planes;
+      }
+    }
+  }
+  const double expected = planes > 0 ? sum / planes : farthest;
+  const double behind = this->SurfaceBehind(pixel, (this->Own.disparity[near] + expected) / 2,
+    expected * (1 - SeeThrough * this->Options.noise));
+  if (behind > 0)
+  {
+    return behind;
+  }
+  return planes > 0 && expected < this->Own.disparity[near] ? std::optional<double>(expected)
+                                                            : std::nullopt;
+}
+
+double BackgroundContinuer::DistanceToNearSide(std::size_t triangle, const Vector2d& pixel) const
+{
+  const DisparityMap& map = this->Own.map;
+  const auto& corner = map.triangles[triangle];
+  const double middle = this->MiddleOfJump(triangle);
+  double distance = HUGE_VAL;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int a = corner[i], b = corner[(i + 1) % 3];
+    if (this->Own.disparity[a] > middle)
+    {
+      const bool isEdge = this->Own.disparity[b] > middle;
+      const Vector2d along =
+        isEdge ? Vector2d(map.imagePoints[b] - map.imagePoints[a]) : Vector2d::Zero();
+      const Vector2d offset = pixel - map.imagePoints[a];
+      const double length = along.squaredNorm();
+      const double s = length > 0 ? std::clamp(offset.dot(along) / length, 0.0, 1.0) : 0.0;
+      distance = std::min(distance, (offset - s * along).norm());
+    }
+  }
+  return distance;
+}
+
+// Whether a known point would stick out of the triangle with new disparities at its corners.
+bool BackgroundContinuer::IsViolated(std::size_t triangle, const std::array<double, 3>& disparity,
+  const std::vector<Vector3d>& points) const
+{
+  const DisparityMap& map = this->Own.map;
+  const auto& corner = map.triangles[triangle];
+  const Vector2d& origin = map.imagePoints[corner[0]];
+  Eigen::Matrix2d edges;
+  edges << map.imagePoints[corner[1]] - origin, map.imagePoints[corner[2]] - origin;
+  const Eigen::Matrix2d inverse = edges.inverse();
+  return std::any_of(points.begin(), points.end(),
+    [&](const Vector3d& point)
+    {
+      const Vector2d pixel = map.camera.Project(point);
+      const Vector2d weight = inverse * (pixel - origin);
+      const double surface = disparity[0] + weight.x() * (disparity[1] - disparity[0]) +
+        weight.y() * (disparity[2] - disparity[0]);
+      const double height = 1 / map.camera.Depth(point) - surface;
+      return height > SticksOut * this->Options.noise * surface &&
+        this->DistanceToNearSide(triangle, pixel) >= this->Options.edgeWidth;
+    });
+}
+
+// The bridges that are refuted and below which the background is known.
+std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBridges()
+{
+  std::vector<SetBackBridge> refuted;
+  for (std::size_t t = 0; t < this->Own.map.triangles.size(); ++t)
+  {
+    if (!this->Own.isBridge[t] || !this->IsRefuted(t))
+    {
+      continue;
+    }
+    SetBackBridge bridge{ t, {} };
+    bool known = true;
+    for (int i = 0; i < 3 && known; ++i)
+    {
+      const int corner = this->Own.map.triangles[t][i];
+      bridge.disparity[i] = this->Own.disparity[corner];
+      if (bridge.disparity[i] > this->MiddleOfJump(t))
+      {
+        const std::optional<double> background = this->SetBack(t, corner);
+        known = background.has_value();
+        bridge.disparity[i] = background.value_or(0);
+      }
+    }
+    if (known)
+    {
+      refuted.push_back(bridge);
+    }
+  }
+  return refuted;
+}
+
+// All views' points that project into bridges, by triangle.
+std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
+  const std::vector<View>& views) const
+{
+  std::vector<std::vector<Vector3d>> points(this->Own.map.triangles.size());
+  for (const View& view : views)
+  {
+    for (const Vector3d& point : view.points)
+    {
+      const int triangle = this->Own.freespace.At(point).triangle;
+      if (triangle >= 0 && this->Own.isBridge[triangle])
+      {
+        points[triangle].push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+DisparityMap BackgroundContinuer::Continue(const std::vector<View>& views)
+{
+  DisparityMap map = this->Own.map;
+  std::vector<double> disparity = this->Own.disparity;
+  std::vector<std::vector<int>> setBack(map.points.size()); // behind each point
+  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(views);
+  for (const SetBackBridge& bridge : this->RefutedBridges())
+  {
+    if (this->IsViolated(bridge.triangle, bridge.disparity, points[bridge.triangle]))
+    {
+      continue;
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      int& corner = map.triangles[bridge.triangle][i];
+      const double wanted = bridge.disparity[i];
+      if (wanted == disparity[corner])
+      {
+        continue;
+      }
+      // Bridges side by side share the corner where they agree on it.
+      std::vector<int>& behind = setBack[corner];
+      const auto shared = std::find_if(behind.begin(), behind.end(),
+        [&](int other)
+        { return std::abs(disparity[other] - wanted) <= this->Options.noise * wanted; });
+      if (shared == behind.end())
+      {
+        const Vector2d pixel = map.imagePoints[corner];
+        map.points.push_back(map.camera.Unproject(pixel, 1 / wanted));
+        map.imagePoints.push_back(pixel);
+        map.sourceView.push_back(-1);
+        disparity.push_back(wanted);
+        behind.push_back(static_cast<int>(map.points.size()) - 1);
+        corner = behind.back();
+      }
+      else
+      {
+        corner = *shared;
+      }
+    }
+  }
+  return map;
+}
+
+}
+
+void ContinueBackgroundOptions::Check() const
+{
+  if (!(this->noise > 0) || !std::isfinite(this->noise))
+  {
+    throw Error("The relative noise of the features' depth must be positive.");
+  }
+  if (!(this->grazingAngle >= 0 && this->grazingAngle < 90))
+  {
+    throw Error("The grazing angle of bridges must be in [0, 90) degrees.");
+  }
+  if (this->views < 1)
+  {
+    throw Error("At least one view must see through a bridge to refute it.");
+  }
+  if (!(this->edgeWidth >= 0))
+  {
+    throw Error("The width of edges must not be negative.");
+  }
+}
+
+void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor)
+{
+  options.Check();
+  std::vector<std::unique_ptr<Scene>> scenes(maps.size());
+  parallelFor(maps.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        scenes[v] = std::make_unique<Scene>(maps[v], options);
+      }
+    });
+  std::vector<DisparityMap> continued(maps.size());
+  parallelFor(maps.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        continued[v] = BackgroundContinuer(scenes, v, options).Continue(views);
+      }
+    });
+  maps = std::move(continued);
+}
+
+}
