@@ -115,7 +115,8 @@ public:
 
   ///@{
   /**
-   * The greatest mean difference of the colours on an edge's better side, grey levels. Default 30.
+   * The greatest mean difference of the colours on an edge's better side, grey levels of
+   * a logarithmic scale. Default 45.
    */
   vtkSetMacro(ColorTolerance, double);
   vtkGetMacro(ColorTolerance, double);
@@ -148,7 +149,7 @@ protected:
   double HighContrast = 4.5;
   double Tolerance = 0.5;
   double MinimumAngle = 12.0;
-  double ColorTolerance = 30.0;
+  double ColorTolerance = 45.0;
   int MinimumRun = 6;
 
 private:

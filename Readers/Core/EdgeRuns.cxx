@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeRuns.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace freespace
@@ -20,6 +21,7 @@ public:
     , Baseline(baseline)
     , Options(options)
     , Matches(edges.tokens.size())
+    , Residual(edges.tokens.size(), 0.0)
   {
   }
 
@@ -32,14 +34,20 @@ public:
         this->Intersect(hypothesis);
       }
     }
+    std::vector<std::vector<int>> runs;
     for (std::size_t chain = 0; chain < this->Edges.NumberOfChains(); ++chain)
     {
-      for (std::vector<int>& run :
-        this->SplitIntoRuns(this->Edges.begin[chain], this->Edges.begin[chain + 1]))
-      {
-        this->DropUnconfirmed(run);
-        this->MatchRun(run);
-      }
+      this->SplitIntoRuns(this->Edges.begin[chain], this->Edges.begin[chain + 1], runs);
+    }
+    for (std::vector<int>& run : runs)
+    {
+      this->DropUnconfirmed(run);
+      this->FitRun(run);
+    }
+    const double limit = this->ResidualLimit(runs);
+    for (const std::vector<int>& run : runs)
+    {
+      this->MatchRun(run, limit);
     }
     return std::move(this->Matches);
   }
@@ -86,17 +94,17 @@ private:
   }
 
   // The tokens [begin, end) of a chain that have a hypothesis, in pieces without a jump.
-  std::vector<std::vector<int>> SplitIntoRuns(int begin, int end) const
+  void SplitIntoRuns(int begin, int end, std::vector<std::vector<int>>& runs) const
   {
     constexpr double gap = 8; // pixels
-    std::vector<std::vector<int>> runs;
+    const std::size_t before = runs.size();
     for (int i = begin; i < end; ++i)
     {
       if (this->Chosen[i].Empty())
       {
         continue;
       }
-      bool continues = !runs.empty();
+      bool continues = runs.size() > before;
       if (continues)
       {
         const int last = runs.back().back();
@@ -111,7 +119,6 @@ private:
       }
       runs.back().push_back(i);
     }
-    return runs;
   }
 
   void DropUnconfirmed(std::vector<int>& run) const
@@ -170,18 +177,59 @@ private:
     return determinant > 0 ? (wd * wss - wsd * ws) / determinant : wd / w;
   }
 
-  void MatchRun(const std::vector<int>& run)
+  // The fitted disparities of a run and how far the edges are from where they predict them.
+  void FitRun(const std::vector<int>& run)
   {
-    std::vector<int> kept;
     for (int k = 0; k < static_cast<int>(run.size()); ++k)
     {
       const EdgeHypothesis& hypothesis = this->Chosen[run[k]];
       const double disparity = this->FitDisparity(run, k);
-      const double off = std::abs(hypothesis.disparity - disparity);
-      if (disparity > 0 && off <= this->Options.tolerance * hypothesis.sigma)
+      double residual = std::abs(hypothesis.disparity - disparity) / hypothesis.sigma;
+      for (int j = hypothesis.begin; j < hypothesis.begin + hypothesis.count; ++j)
       {
-        kept.push_back(run[k]);
-        this->Matches[run[k]].disparity = disparity;
+        const EdgeCandidate& candidate = this->Support[j];
+        residual = std::max(residual, std::abs(candidate.disparity - disparity) / candidate.sigma);
+      }
+      this->Matches[run[k]].disparity = disparity;
+      this->Residual[run[k]] = residual;
+    }
+  }
+
+  // What these images' edges deserve: several times their median error, but not more than the
+  // tolerance. Sharp pictures from exact cameras show up a wrong match by a fraction of a pixel.
+  double ResidualLimit(const std::vector<std::vector<int>>& runs) const
+  {
+    constexpr double factor = 5, least = 0.1; // pixels
+    std::vector<double> residuals;
+    for (const std::vector<int>& run : runs)
+    {
+      for (int i : run)
+      {
+        residuals.push_back(this->Residual[i]);
+      }
+    }
+    if (residuals.empty())
+    {
+      return least;
+    }
+    const auto middle = residuals.begin() + residuals.size() / 2;
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    return std::min(this->Options.tolerance, std::max(least, factor * *middle));
+  }
+
+  void MatchRun(const std::vector<int>& run, double limit)
+  {
+    std::vector<int> kept;
+    for (int i : run)
+    {
+      const bool fits = this->Residual[i] <= limit && this->Matches[i].disparity > 0;
+      if (fits && this->MeanCost(this->Chosen[i]) <= this->Options.maximumCost)
+      {
+        kept.push_back(i);
+      }
+      else
+      {
+        this->Matches[i] = EdgeMatch();
       }
     }
     const bool enough = static_cast<int>(kept.size()) >= this->Options.minimumRun;
@@ -199,6 +247,16 @@ private:
     this->NumberOfRuns += enough;
   }
 
+  double MeanCost(const EdgeHypothesis& hypothesis) const
+  {
+    double cost = 0;
+    for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
+    {
+      cost += this->Support[k].cost / hypothesis.count;
+    }
+    return cost;
+  }
+
   void FillMatch(int i)
   {
     const EdgeHypothesis& hypothesis = this->Chosen[i];
@@ -207,10 +265,7 @@ private:
     match.images = hypothesis.count;
     match.imagePoint =
       token.position + this->BestShift(hypothesis, match.disparity) * token.Normal();
-    for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
-    {
-      match.cost += this->Support[k].cost / hypothesis.count;
-    }
+    match.cost = this->MeanCost(hypothesis);
     match.run = this->NumberOfRuns;
   }
 
@@ -220,6 +275,7 @@ private:
   double Baseline;
   const MatcherOptions& Options;
   std::vector<EdgeMatch> Matches;
+  std::vector<double> Residual; // per token, pixels across the edge
   int NumberOfRuns = 0;
 };
 

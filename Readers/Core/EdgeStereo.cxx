@@ -3,12 +3,12 @@
 
 #include "CommonVolume.h"
 #include "Error.h"
+#include "ImageFile.h"
 
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
-#include <filesystem>
+#include <limits>
 
 namespace freespace
 {
@@ -27,26 +27,6 @@ const CalibratedImage& FindImage(
       ", which the camera model does not have.");
   }
   return *found;
-}
-
-cv::Mat LoadImage(const std::string& path, const Camera& camera)
-{
-  if (!std::filesystem::is_regular_file(path))
-  {
-    throw Error("Cannot read the image " + path + ": there is no such file.");
-  }
-  const cv::Mat image = cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (image.empty())
-  {
-    throw Error("Cannot read the image " + path + ": it is damaged or of an unknown format.");
-  }
-  if (image.cols != camera.width || image.rows != camera.height)
-  {
-    throw Error("The image " + path + " has " + std::to_string(image.cols) + " x " +
-      std::to_string(image.rows) + " pixels, but its camera has " + std::to_string(camera.width) +
-      " x " + std::to_string(camera.height) + ".");
-  }
-  return image;
 }
 
 // Moves the tokens to where a camera without distortion would see them. Tangents turn with them.
@@ -85,7 +65,8 @@ ImageEdges EdgesOfImage(
   const Scene& scene, const CalibratedImage& image, const EdgeTokenOptions& options)
 {
   ImageEdges result{ image.camera,
-    FindEdges(LoadImage(scene.ImagePath(image.file), image.camera), options) };
+    FindEdges(
+      LoadImage(scene.ImagePath(image.file), image.camera.width, image.camera.height), options) };
   Undistort(image, result.edges);
   return result;
 }

@@ -20,7 +20,7 @@ namespace freespace
 /// How edges are found in one image.
 struct EdgeTokenOptions
 {
-  double smoothing = 1.2;    ///< sigma of the Gaussian before the derivative, pixels; > 0
+  double smoothing = 1.0;    ///< sigma of the Gaussian before the derivative, pixels; > 0
   double lowContrast = 1.8;  ///< least slope of an edge at middle grey, grey levels per pixel; > 0;
                              ///< as the noise, it is less in the dark and more in the light
   double highContrast = 4.5; ///< slope that an edge chain reaches somewhere; >= lowContrast

@@ -5,6 +5,7 @@
 #include "EdgeRuns.h"
 #include "EpipolarIndex.h"
 #include "Error.h"
+#include "RunSupport.h"
 #include "SideColors.h"
 
 #include <algorithm>
@@ -75,8 +76,10 @@ public:
       this->ChooseAlongChain(this->Edges.begin[chain], this->Edges.begin[chain + 1]);
     }
     this->EnforceUniqueness();
-    return MatchRuns(
-      this->Edges, std::move(this->Chosen), this->Support, this->Baseline, this->Options);
+    std::vector<EdgeMatch> matches =
+      MatchRuns(this->Edges, std::move(this->Chosen), this->Support, this->Baseline, this->Options);
+    DropLonelyRuns(this->Edges, this->Baseline, this->Options, matches);
+    return matches;
   }
 
 private:
@@ -445,7 +448,7 @@ void MatcherOptions::Check() const
     throw Error("The least disparity must not be negative and must lie below the greatest.");
   }
   if (!(this->tolerance > 0) || !(this->colorTolerance > 0) || !(this->gradientLimit > 0) ||
-    this->minimumRun < 1)
+    !(this->maximumCost > 0) || this->minimumRun < 1)
   {
     throw Error("The tolerances of edge matching and the least run must be positive.");
   }

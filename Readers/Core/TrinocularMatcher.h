@@ -20,7 +20,8 @@ struct MatcherOptions
   double minimumAngle = 12;   ///< between an edge and the epipolar line, degrees; edges nearer to
                               ///< parallel are left to another triplet; (0, 90)
   double angleTolerance = 30; ///< between the directions of matching edges, degrees; (0, 90)
-  double colorTolerance = 60; ///< mean difference on the better side of the edge, grey levels; > 0
+  double colorTolerance = 45; ///< mean difference on the better side of the edge, grey levels; > 0
+  double maximumCost = 0.4;   ///< of a match, in [0, 1], see EdgeMatch
   double gradientLimit = 0.5; ///< change of disparity (pixels of the longest baseline) for each
                               ///< pixel along a chain that counts as continuous; > 0
   int minimumRun = 6;         ///< tokens of a chain that are matched without a break; > 0
@@ -41,11 +42,10 @@ struct EdgeMatch
 {
   int images = 0;       ///< besides the reference that show it: 0 when it has no match, else >= 2
   double disparity = 0; ///< 1 / depth in the reference camera, from all rays together
-  Eigen::Vector2d imagePoint =
-    Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,
-                             ///< moved across the edge by the little that lets all rays meet best
-  double cost = 0;           ///< mean over the images, in [0, 1]: colours, direction and distance
-  int run = -1;              ///< number of the unbroken piece of chain that it belongs to
+  Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,
+    ///< moved across the edge by the little that lets all rays meet best
+  double cost = 0; ///< mean over the images, in [0, 1]: colours, direction and distance
+  int run = -1;    ///< number of the unbroken piece of chain that it belongs to
 };
 
 /// Matches the tokens of a reference image over two or more other images: section 3's "feature

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFeatureOverlayWriter.h"
+
+#include "AlgorithmProgress.h"
+#include "FeatureOverlay.h"
+#include "ViewBlocks.h"
+
+#include <vtkCellArray.h>
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+#include <filesystem>
+
+vtkStandardNewMacro(vtkFeatureOverlayWriter);
+
+namespace
+{
+
+std::vector<std::vector<int>> ChainsOf(vtkPolyData* block)
+{
+  std::vector<std::vector<int>> chains;
+  vtkCellArray* lines = block->GetLines();
+  for (vtkIdType cell = 0; cell < lines->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    lines->GetCellAtId(cell, size, ids);
+    chains.emplace_back(ids, ids + size);
+  }
+  return chains;
+}
+
+void MakeFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+  {
+    throw freespace::Error("Cannot make the folder " + folder + ": " + error.message() + ".");
+  }
+}
+
+}
+
+int vtkFeatureOverlayWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  return 1;
+}
+
+void vtkFeatureOverlayWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  try
+  {
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+    const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
+    MakeFolder(this->OutputFolder);
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+      progress(static_cast<double>(i) / views.size());
+      auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(static_cast<unsigned int>(i)));
+      freespace::WriteFeatureOverlay(views[i], ChainsOf(block), this->ImagesFolder,
+        (std::filesystem::path(this->OutputFolder) / (views[i].name + ".png")).string());
+    }
+  }
+  catch (const freespace::Aborted&)
+  {
+    this->SetErrorCode(vtkErrorCode::UserError);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkFeatureOverlayWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ImagesFolder: " << this->ImagesFolder << "\n";
+  os << indent << "OutputFolder: " << this->OutputFolder << "\n";
+}
