@@ -5,6 +5,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
@@ -26,7 +27,7 @@ namespace
 using RowMajor3x3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor3x4 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-void AddFieldArray(vtkPolyData* block, const char* name, const double* values, int count)
+void AddFieldArray(vtkDataObject* block, const char* name, const double* values, int count)
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
@@ -35,26 +36,77 @@ void AddFieldArray(vtkPolyData* block, const char* name, const double* values, i
   block->GetFieldData()->AddArray(array);
 }
 
-void AddCamera(vtkPolyData* block, const View& view)
+vtkDataArray* RequiredArray(
+  vtkFieldData* data, const char* name, int components, vtkIdType tuples, const std::string& block)
 {
-  const RowMajor3x3 intrinsics = view.camera.K;
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfComponents() * array->GetNumberOfTuples() != components * tuples)
+  {
+    throw Error("View '" + block + "' has no array " + name + " of " +
+      std::to_string(components * tuples) + " values.");
+  }
+  return array;
+}
+
+// Single-row arrays come as one tuple or as many tuples of one component, after a round trip.
+double FlatValue(vtkDataArray* array, int index)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetComponent(index / components, index % components);
+}
+
+}
+
+void AddCamera(vtkDataObject* block, const Camera& camera, const std::string& imageFile)
+{
+  const RowMajor3x3 intrinsics = camera.K;
   RowMajor3x4 camFromWorld;
-  camFromWorld << view.camera.R, view.camera.t;
+  camFromWorld << camera.R, camera.t;
   AddFieldArray(block, "CameraIntrinsics", intrinsics.data(), 9);
   AddFieldArray(block, "CameraFromWorld", camFromWorld.data(), 12);
 
   vtkNew<vtkIntArray> size;
   size->SetName("ImageSize");
   size->SetNumberOfComponents(2);
-  const int values[2] = { view.camera.width, view.camera.height };
+  const int values[2] = { camera.width, camera.height };
   size->InsertNextTypedTuple(values);
   block->GetFieldData()->AddArray(size);
 
   vtkNew<vtkStringArray> file;
   file->SetName("ImageFile");
-  file->InsertNextValue(view.imageFile);
+  file->InsertNextValue(imageFile);
   block->GetFieldData()->AddArray(file);
 }
+
+Camera CameraFromBlock(vtkDataObject* block, const std::string& name)
+{
+  vtkFieldData* field = block->GetFieldData();
+  vtkDataArray* intrinsics = RequiredArray(field, "CameraIntrinsics", 9, 1, name);
+  vtkDataArray* camFromWorld = RequiredArray(field, "CameraFromWorld", 12, 1, name);
+  vtkDataArray* size = RequiredArray(field, "ImageSize", 2, 1, name);
+  Camera camera;
+  for (int i = 0; i < 9; ++i)
+  {
+    camera.K(i / 3, i % 3) = FlatValue(intrinsics, i);
+  }
+  for (int i = 0; i < 12; ++i)
+  {
+    (i % 4 < 3 ? camera.R(i / 4, i % 4) : camera.t(i / 4)) = FlatValue(camFromWorld, i);
+  }
+  camera.width = static_cast<int>(FlatValue(size, 0));
+  camera.height = static_cast<int>(FlatValue(size, 1));
+  const bool usable = camera.K.allFinite() && camera.R.allFinite() && camera.t.allFinite() &&
+    camera.K.determinant() != 0 && camera.width > 0 && camera.height > 0;
+  if (!usable)
+  {
+    throw Error(
+      "View '" + name + "' has a camera that is not finite, not invertible or without an image.");
+  }
+  return camera;
+}
+
+namespace
+{
 
 vtkSmartPointer<vtkPolyData> BlockWithPoints(const View& view)
 {
@@ -74,7 +126,7 @@ vtkSmartPointer<vtkPolyData> BlockWithPoints(const View& view)
   }
   block->SetPoints(points);
   block->GetPointData()->AddArray(imagePoints);
-  AddCamera(block, view);
+  AddCamera(block, view.camera, view.imageFile);
   return block;
 }
 
@@ -93,51 +145,6 @@ void AddPointArray(vtkPolyData* block, const char* name, int components,
   block->GetPointData()->AddArray(array);
 }
 
-vtkDataArray* RequiredArray(
-  vtkFieldData* data, const char* name, int components, vtkIdType tuples, const std::string& block)
-{
-  vtkDataArray* array = data->GetArray(name);
-  if (!array || array->GetNumberOfComponents() * array->GetNumberOfTuples() != components * tuples)
-  {
-    throw Error("View '" + block + "' has no array " + name + " of "
-      + std::to_string(components * tuples) + " values.");
-  }
-  return array;
-}
-
-// Single-row arrays come as one tuple or as many tuples of one component, after a round trip.
-double FlatValue(vtkDataArray* array, int index)
-{
-  const int components = array->GetNumberOfComponents();
-  return array->GetComponent(index / components, index % components);
-}
-
-Camera CameraFromBlock(vtkPolyData* block, const std::string& name)
-{
-  vtkFieldData* field = block->GetFieldData();
-  vtkDataArray* intrinsics = RequiredArray(field, "CameraIntrinsics", 9, 1, name);
-  vtkDataArray* camFromWorld = RequiredArray(field, "CameraFromWorld", 12, 1, name);
-  vtkDataArray* size = RequiredArray(field, "ImageSize", 2, 1, name);
-  Camera camera;
-  for (int i = 0; i < 9; ++i)
-  {
-    camera.K(i / 3, i % 3) = FlatValue(intrinsics, i);
-  }
-  for (int i = 0; i < 12; ++i)
-  {
-    (i % 4 < 3 ? camera.R(i / 4, i % 4) : camera.t(i / 4)) = FlatValue(camFromWorld, i);
-  }
-  camera.width = static_cast<int>(FlatValue(size, 0));
-  camera.height = static_cast<int>(FlatValue(size, 1));
-  const bool usable = camera.K.allFinite() && camera.R.allFinite() && camera.t.allFinite()
-    && camera.K.determinant() != 0 && camera.width > 0 && camera.height > 0;
-  if (!usable)
-  {
-    throw Error("View '" + name + "' has a camera that is not finite, not invertible or without an image.");
-  }
-  return camera;
-}
-
 std::string ImageFileOf(vtkPolyData* block)
 {
   auto* file = vtkStringArray::SafeDownCast(block->GetFieldData()->GetAbstractArray("ImageFile"));
@@ -153,8 +160,8 @@ void ReadPoints(vtkPolyData* block, View& view)
   {
     return;
   }
-  vtkDataArray* imagePoints
-    = RequiredArray(block->GetPointData(), "ImagePoint", 2, count, view.name);
+  vtkDataArray* imagePoints =
+    RequiredArray(block->GetPointData(), "ImagePoint", 2, count, view.name);
   for (vtkIdType i = 0; i < count; ++i)
   {
     block->GetPoint(i, view.points[i].data());
@@ -214,13 +221,11 @@ vtkSmartPointer<vtkPolyData> BlockFromEdgeView(const EdgeView& view)
 {
   auto block = BlockFromView(view);
   AddPointArray<vtkUnsignedCharArray>(block, "RGB", 3, view.colors,
-    [](vtkUnsignedCharArray* array, vtkIdType i, const std::array<std::uint8_t, 3>& color) {
-      array->SetTypedTuple(i, color.data());
-    });
+    [](vtkUnsignedCharArray* array, vtkIdType i, const std::array<std::uint8_t, 3>& color)
+    { array->SetTypedTuple(i, color.data()); });
   AddPointArray<vtkDoubleArray>(block, "EdgeDirection", 3, view.edgeDirections,
-    [](vtkDoubleArray* array, vtkIdType i, const Eigen::Vector3d& direction) {
-      array->SetTypedTuple(i, direction.data());
-    });
+    [](vtkDoubleArray* array, vtkIdType i, const Eigen::Vector3d& direction)
+    { array->SetTypedTuple(i, direction.data()); });
   AddPointArray<vtkDoubleArray>(block, "MatchingCost", 1, view.matchingCosts,
     [](vtkDoubleArray* array, vtkIdType i, double cost) { array->SetValue(i, cost); });
   AddPointArray<vtkIntArray>(block, "ChainId", 1, view.chainIds,
@@ -316,8 +321,8 @@ std::vector<DisparityMap> MapsFromBlocks(vtkMultiBlockDataSet* blocks)
   return maps;
 }
 
-void SetNamedBlock(vtkMultiBlockDataSet* blocks, unsigned int index, const std::string& name,
-  vtkPolyData* block)
+void SetNamedBlock(
+  vtkMultiBlockDataSet* blocks, unsigned int index, const std::string& name, vtkPolyData* block)
 {
   blocks->SetBlock(index, block);
   blocks->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());

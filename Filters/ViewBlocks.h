@@ -7,6 +7,7 @@
 
 #include <vtkSmartPointer.h>
 
+class vtkDataObject;
 class vtkMultiBlockDataSet;
 class vtkPolyData;
 
@@ -38,6 +39,11 @@ VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromEdgeView(const 
 
 /// The block of a disparity map, with its triangles.
 VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromMap(const DisparityMap& map);
+
+/// The camera and image file alone, to and from the field data of any data object.
+VTKFREESPACEFILTERS_EXPORT void AddCamera(
+  vtkDataObject* block, const Camera& camera, const std::string& imageFile);
+VTKFREESPACEFILTERS_EXPORT Camera CameraFromBlock(vtkDataObject* block, const std::string& name);
 
 /// The view of a block. Throws Error, naming the block, when an array is missing or of a wrong shape.
 VTKFREESPACEFILTERS_EXPORT View ViewFromBlock(vtkPolyData* block, const std::string& name);
