@@ -303,7 +303,7 @@ int vtkSurfacePicture::RequestData(
   stage.actor->SetMapper(mapper);
   stage.actor->GetProperty()->SetLighting(!this->Mapper);
   stage.renderer->SetBackground(this->Background);
-  stage.window->SetMultiSamples(this->Mapper ? this->EdgeSamples : 0);
+  stage.window->SetMultiSamples(0);
   stage.window->SetSize(samples * width, samples * height);
 
   vtkCamera* camera = stage.renderer->GetActiveCamera();
@@ -374,7 +374,6 @@ void vtkSurfacePicture::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "View: " << (this->Shown->view ? "calibrated" : "default") << "\n";
   os << indent << "Size: " << this->Size[0] << " " << this->Size[1] << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
-  os << indent << "EdgeSamples: " << this->EdgeSamples << "\n";
   os << indent << "Background: " << this->Background[0] << " " << this->Background[1] << " "
      << this->Background[2] << "\n";
   os << indent << "Mapper: " << this->Mapper.Get() << "\n";

@@ -66,16 +66,6 @@ public:
 
   ///@{
   /**
-   * Samples of the surface's edges within each ray, 0 to 16, where the OpenGL context has them;
-   * they cost much less than rays of their own. Without a mapper of one's own it is taken for 0.
-   * Default 8.
-   */
-  vtkSetClampMacro(EdgeSamples, int, 0, 16);
-  vtkGetMacro(EdgeSamples, int);
-  ///@}
-
-  ///@{
-  /**
    * Red, green and blue of the background, 0 to 1. Default white.
    */
   vtkSetVector3Macro(Background, double);
@@ -108,7 +98,6 @@ protected:
 
   int Size[2] = { 1280, 960 };
   int Samples = 2;
-  int EdgeSamples = 8;
   double Background[3] = { 1.0, 1.0, 1.0 };
   vtkSmartPointer<vtkPolyDataMapper> Mapper;
 

@@ -16,11 +16,14 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLHelper.h>
+#include <vtkOpenGLQuadHelper.h>
 #include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkOpenGLVertexBufferObjectGroup.h>
 #include <vtkPolyData.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkShader.h>
 #include <vtkShaderProgram.h>
@@ -105,6 +108,78 @@ private:
   int Height = 0;
 };
 
+// Where the surface's geometry is drawn: a framebuffer with a multisampled texture and depth.
+class GeometryBuffer
+{
+public:
+  void Bind(vtkOpenGLState* state, int width, int height, int samples, int unit)
+  {
+    if (width != this->Width || height != this->Height || samples != this->AskedSamples)
+    {
+      this->Delete();
+      this->Create(state, width, height, samples, unit);
+    }
+    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Name);
+    this->BindTexture(state, unit);
+  }
+
+  void BindTexture(vtkOpenGLState* state, int unit)
+  {
+    state->vtkglActiveTexture(GL_TEXTURE0 + static_cast<unsigned int>(unit));
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, this->Texture);
+  }
+
+  void Delete()
+  {
+    if (this->Name)
+    {
+      glDeleteFramebuffers(1, &this->Name);
+      glDeleteTextures(1, &this->Texture);
+      glDeleteRenderbuffers(1, &this->Depth);
+      *this = GeometryBuffer();
+    }
+  }
+
+  bool IsComplete() const { return this->Complete; }
+  int GetSamples() const { return this->Samples; }
+
+private:
+  void Create(vtkOpenGLState* state, int width, int height, int samples, int unit)
+  {
+    GLint color = 1;
+    GLint depth = 1;
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &color);
+    glGetIntegerv(GL_MAX_SAMPLES, &depth);
+    this->Width = width;
+    this->Height = height;
+    this->AskedSamples = samples;
+    this->Samples = std::max(1, std::min({ samples, color, depth }));
+    glGenTextures(1, &this->Texture);
+    this->BindTexture(state, unit);
+    glTexImage2DMultisample(
+      GL_TEXTURE_2D_MULTISAMPLE, this->Samples, GL_RGBA32F, width, height, GL_TRUE);
+    glGenRenderbuffers(1, &this->Depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, this->Depth);
+    glRenderbufferStorageMultisample(
+      GL_RENDERBUFFER, this->Samples, GL_DEPTH_COMPONENT24, width, height);
+    glGenFramebuffers(1, &this->Name);
+    state->vtkglBindFramebuffer(GL_FRAMEBUFFER, this->Name);
+    glFramebufferTexture2D(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, this->Texture, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, this->Depth);
+    this->Complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  }
+
+  unsigned int Name = 0;
+  unsigned int Texture = 0;
+  unsigned int Depth = 0;
+  int Width = 0;
+  int Height = 0;
+  int AskedSamples = 0;
+  int Samples = 0;
+  bool Complete = false;
+};
+
 // Points of the surface, each for an equal share of its area.
 std::vector<Eigen::Vector3d> SampleSurface(const TriangleMesh& mesh, int count)
 {
@@ -137,35 +212,51 @@ std::vector<Eigen::Vector3d> SampleSurface(const TriangleMesh& mesh, int count)
   return samples;
 }
 
-// Where the renderer's camera is, in the coordinates of the surface, and its focal length in
-// pixels.
+// The renderer's camera in the coordinates of the surface.
 struct NovelCamera
 {
   Eigen::Vector3d center;
-  double focal = 1;
+  double focal = 1;     // pixels
+  Eigen::Matrix3d axes; // rows: right, up, forward
+  Eigen::Matrix4d clipFromSurface;
 };
+
+Eigen::Matrix4d ToEigen(vtkMatrix4x4* matrix)
+{
+  return Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix->GetData());
+}
 
 NovelCamera FindNovelCamera(vtkRenderer* renderer, vtkActor* actor)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
-  double position[4] = { 0, 0, 0, 1 };
-  camera->GetPosition(position);
+  vtkNew<vtkMatrix4x4> worldFromSurface;
+  actor->GetMatrix(worldFromSurface);
+  const Eigen::Matrix4d viewFromSurface =
+    ToEigen(camera->GetModelViewTransformMatrix()) * ToEigen(worldFromSurface);
+  const Eigen::Matrix4d surfaceFromView = viewFromSurface.inverse();
+  NovelCamera novel;
+  novel.clipFromSurface =
+    ToEigen(camera->GetCompositeProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1)) *
+    ToEigen(worldFromSurface);
+  for (int i = 0; i < 3; ++i)
+  {
+    const double sign = i == 2 ? -1 : 1; // VTK looks along -z
+    novel.axes.row(i) = sign * surfaceFromView.block<3, 1>(0, i).normalized();
+  }
+  double height = renderer->GetSize()[1];
   if (camera->GetParallelProjection())
   {
-    double direction[3];
-    camera->GetDirectionOfProjection(direction);
-    for (int i = 0; i < 3; ++i)
-    {
-      position[i] -= 1e4 * camera->GetDistance() * direction[i];
-    }
+    const double far = 1e4 * camera->GetDistance();
+    novel.center = (surfaceFromView * Eigen::Vector4d(0, 0, far, 1)).head<3>();
+    novel.focal = height * far / (2 * camera->GetParallelScale());
   }
-  vtkNew<vtkMatrix4x4> surfaceFromWorld;
-  actor->GetMatrix(surfaceFromWorld);
-  surfaceFromWorld->Invert();
-  surfaceFromWorld->MultiplyPoint(position, position);
-  const double halfAngle = vtkMath::RadiansFromDegrees(camera->GetViewAngle()) / 2;
-  return { Eigen::Vector3d(position) / position[3],
-    renderer->GetSize()[1] / (2 * std::tan(halfAngle)) };
+  else
+  {
+    novel.center = surfaceFromView.block<3, 1>(0, 3);
+    const double halfAngle = vtkMath::RadiansFromDegrees(camera->GetViewAngle()) / 2;
+    novel.focal = height / (2 * std::tan(halfAngle));
+  }
+  return novel;
 }
 
 }
@@ -186,6 +277,10 @@ struct vtkViewDependentTextureMapper::InternalState
   LayeredTexture visibility;
   int layerWidth = 0;
   int layerHeight = 0;
+  GeometryBuffer geometry;
+  std::unique_ptr<vtkOpenGLQuadHelper> coloring;
+  int blendedViews = 0; // that the program of coloring was made for
+  int geometryUnit = -1;
   int colorUnit = -1;
   int visibilityUnit = -1;
   NovelCamera novel;
@@ -206,10 +301,21 @@ struct vtkViewDependentTextureMapper::InternalState
 
   void DeleteTexturesOfWindow()
   {
-    if (this->window && this->colors.IsThere())
+    if (this->window)
     {
       this->window->MakeCurrent();
-      this->DeleteTextures();
+      this->DeleteAll();
+    }
+  }
+
+  void DeleteAll()
+  {
+    this->DeleteTextures();
+    this->geometry.Delete();
+    if (this->coloring)
+    {
+      this->coloring->ReleaseGraphicsResources(this->window);
+      this->coloring.reset();
     }
   }
 
@@ -233,6 +339,8 @@ struct vtkViewDependentTextureMapper::InternalState
     std::vector<float> chords; // of these layers
   };
   Order OrderOfLayers() const;
+  void MakeProgram(int blended);
+  void SetParameters(vtkShaderProgram* program) const;
 };
 
 void vtkViewDependentTextureMapper::InternalState::UpdatePhotographs(
@@ -319,8 +427,9 @@ std::vector<int> vtkViewDependentTextureMapper::InternalState::BestViews(std::si
 
 void vtkViewDependentTextureMapper::InternalState::UploadLayer(vtkOpenGLState* state, int layer)
 {
-  const Photograph& photograph = this->photographs[this->layers[layer]];
   const VisibilityMap& map = this->maps[this->layers[layer]];
+  Photograph photograph = this->photographs[this->layers[layer]];
+  freespace::FillMasked(map, photograph);
   const std::size_t width = this->layerWidth;
   std::vector<unsigned char> rgba(4 * width * this->layerHeight, 0);
   std::vector<float> seen(2 * width * this->layerHeight, 0.0f);
@@ -450,36 +559,158 @@ std::string vtkViewDependentTextureMapper::GetViewInUse(int index)
     : std::string();
 }
 
+void vtkViewDependentTextureMapper::InternalState::MakeProgram(int blended)
+{
+  if (this->coloring && this->blendedViews == blended)
+  {
+    return;
+  }
+  const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define BLENDED_VIEWS " +
+    std::to_string(blended) + "\n" + freespace::ViewDependentTextureShader;
+  this->coloring.reset(new vtkOpenGLQuadHelper(this->window, nullptr, source.c_str(), nullptr));
+  this->blendedViews = blended;
+}
+
+void vtkViewDependentTextureMapper::InternalState::SetParameters(vtkShaderProgram* program) const
+{
+  const int count = static_cast<int>(this->layers.size());
+  float rows[3 * freespace::ShaderMaximumViews][4] = {};
+  float centers[freespace::ShaderMaximumViews][4] = {};
+  float factors[freespace::ShaderMaximumViews] = {};
+  for (int i = 0; i < count; ++i)
+  {
+    const Camera& camera = this->photographs[this->layers[i]].camera;
+    Eigen::Matrix<double, 3, 4> pixelFromSurface;
+    pixelFromSurface << camera.K * camera.R, camera.K * (camera.R * this->origin + camera.t);
+    for (int row = 0; row < 3; ++row)
+    {
+      Eigen::RowVector4f::Map(rows[3 * i + row]) = pixelFromSurface.row(row).cast<float>();
+    }
+    Eigen::Vector4d center;
+    center << camera.Center() - this->origin, std::sqrt(camera.K(0, 0) * camera.K(1, 1));
+    Eigen::Vector4f::Map(centers[i]) = center.cast<float>();
+    factors[i] = static_cast<float>(1 - this->maps[this->layers[i]].tolerance);
+  }
+  const Order order = this->OrderOfLayers();
+  program->SetUniformi("viewCount", count);
+  program->SetUniform1iv("viewOrder", count, order.layers.data());
+  program->SetUniform1fv("viewChords", count, order.chords.data());
+  program->SetUniform4fv("viewRows", 3 * freespace::ShaderMaximumViews, rows);
+  program->SetUniform4fv("viewCenters", freespace::ShaderMaximumViews, centers);
+  program->SetUniform1fv("disparityFactors", freespace::ShaderMaximumViews, factors);
+
+  Eigen::Vector4d novelCenter;
+  novelCenter << this->novel.center - this->origin, this->novel.focal;
+  Eigen::Matrix4d clip = this->novel.clipFromSurface;
+  clip.col(3) += clip.leftCols<3>() * this->origin;
+  program->SetUniform4f("novelCenter", novelCenter.cast<float>().eval().data());
+  program->SetUniform3f("novelRight", this->novel.axes.row(0).eval().data());
+  program->SetUniform3f("novelUp", this->novel.axes.row(1).eval().data());
+  program->SetUniform3f("novelForward", this->novel.axes.row(2).eval().data());
+  program->SetUniform4f("clipDepth", clip.row(2).cast<float>().eval().data());
+  program->SetUniform4f("clipScale", clip.row(3).cast<float>().eval().data());
+
+  const float layerSize[2] = { float(this->layerWidth), float(this->layerHeight) };
+  program->SetUniform2f("layerSize", layerSize);
+  program->SetUniformf("feather", static_cast<float>(this->feather));
+  program->SetUniformi("geometrySamples", this->geometry.GetSamples());
+  program->SetUniformi("geometry", this->geometryUnit);
+  program->SetUniformi("photographs", this->colorUnit);
+  program->SetUniformi("visibility", this->visibilityUnit);
+}
+
+void vtkViewDependentTextureMapper::UpdateTextures(vtkRenderer* renderer, vtkActor* actor)
+{
+  InternalState& state = *this->Internals;
+  vtkOpenGLState* gl = state.window->GetState();
+  this->GetInputAlgorithm()->Update();
+  GLint longest = 16;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &longest);
+  if (this->Photographs)
+  {
+    state.UpdatePhotographs(this->Photographs, std::min(this->MaximumPhotographSize, longest));
+  }
+  else
+  {
+    state.photographs.clear();
+    state.DeleteTextures();
+  }
+  state.UpdateMaps(this->GetInput(), this->Feather, this->Tolerance);
+  state.novel = FindNovelCamera(renderer, actor);
+  if (!state.photographs.empty())
+  {
+    state.UpdateLayers(gl, this->MaximumNumberOfViews, this->TextureMemory * 1048576.0);
+    state.visibility.Bind(gl, state.visibilityUnit);
+    state.colors.Bind(gl, state.colorUnit);
+  }
+}
+
+bool vtkViewDependentTextureMapper::DrawGeometry(vtkRenderer* renderer, vtkActor* actor)
+{
+  InternalState& state = *this->Internals;
+  vtkOpenGLState* gl = state.window->GetState();
+  int size[2];
+  int corner[2];
+  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &corner[0], &corner[1]);
+  gl->PushFramebufferBindings();
+  state.geometry.Bind(gl, size[0], size[1], this->EdgeSamples, state.geometryUnit);
+  if (state.geometry.IsComplete())
+  {
+    const vtkOpenGLState::ScopedglViewport keepViewport(gl);
+    const vtkOpenGLState::ScopedglScissor keepScissor(gl);
+    const vtkOpenGLState::ScopedglEnableDisable keepBlend(gl, GL_BLEND);
+    const vtkOpenGLState::ScopedglClearColor keepClearColor(gl);
+    gl->vtkglViewport(0, 0, size[0], size[1]);
+    gl->vtkglScissor(0, 0, size[0], size[1]);
+    gl->vtkglDisable(GL_BLEND);
+    gl->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    gl->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    this->Superclass::RenderPiece(renderer, actor);
+  }
+  gl->PopFramebufferBindings();
+  return state.geometry.IsComplete();
+}
+
+void vtkViewDependentTextureMapper::DrawColors(vtkActor* actor)
+{
+  InternalState& state = *this->Internals;
+  vtkOpenGLState* gl = state.window->GetState();
+  state.MakeProgram(this->BlendedViews);
+  vtkShaderProgram* program = state.coloring->Program;
+  if (!program)
+  {
+    return; // told by VTK
+  }
+  state.window->GetShaderCache()->ReadyShaderProgram(program);
+  state.geometry.BindTexture(gl, state.geometryUnit);
+  state.SetParameters(program);
+  program->SetUniform3f("unseenColor", this->UnseenColor);
+  program->SetUniformf("opacity", static_cast<float>(actor->GetProperty()->GetOpacity()));
+  // Pixels that the surface covers in part are mixed with what is behind.
+  const vtkOpenGLState::ScopedglEnableDisable keepBlend(gl, GL_BLEND);
+  const vtkOpenGLState::ScopedglBlendFuncSeparate keepBlending(gl);
+  gl->vtkglEnable(GL_BLEND);
+  gl->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  state.coloring->Render();
+}
+
 void vtkViewDependentTextureMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 {
+  if (renderer->GetSelector())
+  {
+    this->Superclass::RenderPiece(renderer, actor);
+    return;
+  }
   InternalState& state = *this->Internals;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   state.UseWindow(window);
   vtkTextureUnitManager* units = window->GetState()->GetTextureUnitManager();
+  state.geometryUnit = units->Allocate();
   state.colorUnit = units->Allocate();
   state.visibilityUnit = units->Allocate();
   try
   {
-    this->GetInputAlgorithm()->Update();
-    GLint longest = 16;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &longest);
-    if (this->Photographs)
-    {
-      state.UpdatePhotographs(this->Photographs, std::min(this->MaximumPhotographSize, longest));
-    }
-    else
-    {
-      state.photographs.clear();
-    }
-    state.UpdateMaps(this->GetInput(), this->Feather, this->Tolerance);
-    state.novel = FindNovelCamera(renderer, actor);
-    if (!state.photographs.empty())
-    {
-      state.UpdateLayers(
-        window->GetState(), this->MaximumNumberOfViews, this->TextureMemory * 1048576.0);
-      state.visibility.Bind(window->GetState(), state.visibilityUnit);
-      state.colors.Bind(window->GetState(), state.colorUnit);
-    }
+    this->UpdateTextures(renderer, actor);
   }
   catch (const freespace::Error& error)
   {
@@ -488,7 +719,15 @@ void vtkViewDependentTextureMapper::RenderPiece(vtkRenderer* renderer, vtkActor*
     state.maps.clear();
     state.DeleteTextures();
   }
-  this->Superclass::RenderPiece(renderer, actor);
+  if (this->DrawGeometry(renderer, actor))
+  {
+    this->DrawColors(actor);
+  }
+  else
+  {
+    vtkErrorMacro("The OpenGL context has no framebuffer for the positions of the surface.");
+  }
+  units->Free(state.geometryUnit);
   units->Free(state.colorUnit);
   units->Free(state.visibilityUnit);
 }
@@ -504,15 +743,12 @@ void vtkViewDependentTextureMapper::ReplaceShaderLight(
   shaders[vtkShader::Vertex]->SetSource(vertex);
 
   std::string fragment = shaders[vtkShader::Fragment]->GetSource();
-  vtkShaderProgram::Substitute(fragment, "//VTK::Light::Dec",
-    "#define BLENDED_VIEWS " + std::to_string(this->BlendedViews) + "\n" +
-      freespace::ViewDependentTextureShader);
+  vtkShaderProgram::Substitute(
+    fragment, "//VTK::Light::Dec", freespace::SurfaceGeometryDeclaration);
   vtkShaderProgram::Substitute(fragment, "//VTK::UniformFlow::Impl",
     "vec3 surfaceDx = dFdx(surfacePosition);\n  vec3 surfaceDy = dFdy(surfacePosition);\n"
     "  //VTK::UniformFlow::Impl");
-  vtkShaderProgram::Substitute(fragment, "//VTK::Light::Impl",
-    "gl_FragData[0] = vec4(viewDependentColor(surfacePosition, surfaceDx, surfaceDy), opacity);\n"
-    "  //VTK::Light::Impl");
+  vtkShaderProgram::Substitute(fragment, "//VTK::Light::Impl", freespace::SurfaceGeometryOutput);
   shaders[vtkShader::Fragment]->SetSource(fragment);
 }
 
@@ -520,9 +756,6 @@ void vtkViewDependentTextureMapper::SetMapperShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* renderer, vtkActor* actor)
 {
   this->Superclass::SetMapperShaderParameters(cellBO, renderer, actor);
-  InternalState& state = *this->Internals;
-  vtkShaderProgram* program = cellBO.Program;
-
   // The vertices are x' = (x - shift) * scale where coordinates are large.
   vtkOpenGLVertexBufferObject* positions = this->VBOs->GetVBO("vertexMC");
   float unscale[3] = { 1, 1, 1 };
@@ -535,47 +768,15 @@ void vtkViewDependentTextureMapper::SetMapperShaderParameters(
       origin[i] = positions->GetShift()[i];
     }
   }
-  const int count = static_cast<int>(state.layers.size());
-  float rows[3 * freespace::ShaderMaximumViews][4] = {};
-  float centers[freespace::ShaderMaximumViews][4] = {};
-  for (int i = 0; i < count; ++i)
-  {
-    const Camera& camera = state.photographs[state.layers[i]].camera;
-    Eigen::Matrix<double, 3, 4> pixelFromSurface;
-    pixelFromSurface << camera.K * camera.R, camera.K * (camera.R * origin + camera.t);
-    for (int row = 0; row < 3; ++row)
-    {
-      Eigen::RowVector4f::Map(rows[3 * i + row]) = pixelFromSurface.row(row).cast<float>();
-    }
-    Eigen::Vector4d center;
-    center << camera.Center() - origin, std::sqrt(camera.K(0, 0) * camera.K(1, 1));
-    Eigen::Vector4f::Map(centers[i]) = center.cast<float>();
-  }
-  Eigen::Vector4d novel;
-  novel << state.novel.center - origin, state.novel.focal;
-  const Eigen::Vector4f novelCenter = novel.cast<float>();
-  const float layerSize[2] = { float(state.layerWidth), float(state.layerHeight) };
-
-  program->SetUniform3f("surfaceUnscale", unscale);
-  program->SetUniformi("viewCount", count);
-  const InternalState::Order order = state.OrderOfLayers();
-  program->SetUniform1iv("viewOrder", count, order.layers.data());
-  program->SetUniform1fv("viewChords", count, order.chords.data());
-  program->SetUniform4fv("viewRows", 3 * freespace::ShaderMaximumViews, rows);
-  program->SetUniform4fv("viewCenters", freespace::ShaderMaximumViews, centers);
-  program->SetUniform2f("layerSize", layerSize);
-  program->SetUniform4f("novelCenter", novelCenter.data());
-  program->SetUniformf("disparityFactor", static_cast<float>(1 - this->Tolerance));
-  program->SetUniform3f("unseenColor", this->UnseenColor);
-  program->SetUniformi("photographs", state.colorUnit);
-  program->SetUniformi("visibility", state.visibilityUnit);
+  this->Internals->origin = origin;
+  cellBO.Program->SetUniform3f("surfaceUnscale", unscale);
 }
 
 void vtkViewDependentTextureMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   if (window == this->Internals->window)
   {
-    this->Internals->DeleteTextures();
+    this->Internals->DeleteAll();
   }
   this->Superclass::ReleaseGraphicsResources(window);
 }
@@ -587,6 +788,7 @@ void vtkViewDependentTextureMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BlendedViews: " << this->BlendedViews << "\n";
   os << indent << "Feather: " << this->Feather << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "EdgeSamples: " << this->EdgeSamples << "\n";
   os << indent << "MaximumNumberOfViews: " << this->MaximumNumberOfViews << "\n";
   os << indent << "MaximumPhotographSize: " << this->MaximumPhotographSize << "\n";
   os << indent << "TextureMemory: " << this->TextureMemory << "\n";

@@ -71,11 +71,20 @@ public:
 
   ///@{
   /**
-   * How far behind the surface that a photograph sees a point still counts as seen, as a fraction
-   * of its disparity. Default 0.005.
+   * How far behind the surface that a photograph sees a point still counts as seen, in sizes of the
+   * photograph's pixel at that depth. Default 6.
    */
-  vtkSetClampMacro(Tolerance, double, 0.0, 0.5);
+  vtkSetClampMacro(Tolerance, double, 0.0, 1000.0);
   vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Samples of a pixel that an edge of the surface crosses, 1 to 8, where the OpenGL context has as many.
+   * Default 4.
+   */
+  vtkSetClampMacro(EdgeSamples, int, 1, 8);
+  vtkGetMacro(EdgeSamples, int);
   ///@}
 
   ///@{
@@ -133,7 +142,8 @@ protected:
   vtkSmartPointer<vtkMultiBlockDataSet> Photographs;
   int BlendedViews = 4;
   double Feather = 12.0;
-  double Tolerance = 0.005;
+  double Tolerance = 6.0;
+  int EdgeSamples = 4;
   int MaximumNumberOfViews = 64;
   int MaximumPhotographSize = 2048;
   int TextureMemory = 1024;
@@ -142,6 +152,10 @@ protected:
 private:
   vtkViewDependentTextureMapper(const vtkViewDependentTextureMapper&) = delete;
   void operator=(const vtkViewDependentTextureMapper&) = delete;
+
+  void UpdateTextures(vtkRenderer* renderer, vtkActor* actor);
+  bool DrawGeometry(vtkRenderer* renderer, vtkActor* actor);
+  void DrawColors(vtkActor* actor);
 
   struct InternalState;
   std::unique_ptr<InternalState> Internals;
