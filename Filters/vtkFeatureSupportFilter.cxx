@@ -81,6 +81,7 @@ int vtkFeatureSupportFilter::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::FeatureSupportOptions options;
   options.radius = this->Radius;
+  options.spacings = this->RadiusInSpacings;
   options.minimumNeighbors = this->MinimumNeighbors;
   options.disparityTolerance = this->DisparityTolerance;
   try
@@ -114,6 +115,7 @@ void vtkFeatureSupportFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "RadiusInSpacings: " << this->RadiusInSpacings << "\n";
   os << indent << "MinimumNeighbors: " << this->MinimumNeighbors << "\n";
   os << indent << "DisparityTolerance: " << this->DisparityTolerance << "\n";
 }

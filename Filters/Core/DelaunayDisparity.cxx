@@ -2,6 +2,7 @@
 #include "DelaunayDisparity.h"
 
 #include "Error.h"
+#include "FeatureCloud.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -412,22 +413,30 @@ void DelaunayDisparityOptions::Check() const
   }
 }
 
-DisparityMap TriangulateView(
-  const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
+namespace
 {
-  options.Check();
-  const View& view = views[index];
+
+DisparityMap TriangulateOne(
+  const View& view, int index, const FeatureCloud& cloud, const DelaunayDisparityOptions& options)
+{
   std::vector<Sighting> own, others;
-  for (std::size_t v = 0; v < views.size(); ++v)
+  Sighting sighting;
+  for (const Eigen::Vector3d& point : view.points)
   {
-    for (const Eigen::Vector3d& point : views[v].points)
+    if (Sight(view.camera, point, index, sighting))
     {
-      Sighting sighting;
-      if (Sight(view.camera, point, static_cast<int>(v), sighting))
-      {
-        (v == index ? own : others).push_back(sighting);
-      }
+      own.push_back(sighting);
     }
+  }
+  if (options.minimumDisparity)
+  {
+    cloud.VisitSeen(view.camera, [&](const FeatureCloud::Feature& feature) {
+      if (feature.sourceView != index
+        && Sight(view.camera, feature.point, feature.sourceView, sighting))
+      {
+        others.push_back(sighting);
+      }
+    });
   }
   DisparitySurface surface(view);
   surface.TriangulateFeatures(own);
@@ -444,11 +453,21 @@ DisparityMap TriangulateView(
   return map;
 }
 
+}
+
+DisparityMap TriangulateView(
+  const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
+{
+  options.Check();
+  return TriangulateOne(views[index], static_cast<int>(index), FeatureCloud(views), options);
+}
+
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   const DelaunayDisparityOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
   options.Check();
   progress(0);
+  const FeatureCloud cloud(views);
   std::vector<DisparityMap> maps(views.size());
   std::vector<std::exception_ptr> faults(views.size());
   std::atomic<bool> stop{ false };
@@ -461,7 +480,7 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
       {
         try
         {
-          maps[v] = TriangulateView(views, v, options);
+          maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options);
           ++done;
           if (std::this_thread::get_id() == caller)
           {

@@ -89,10 +89,30 @@ std::vector<double> UsableDisparities(const View& view)
   return disparity;
 }
 
+// Of features spread evenly over the box that holds them.
+double MeanSpacing(const View& view, const std::vector<double>& disparity)
+{
+  Eigen::AlignedBox2d box;
+  int count = 0;
+  for (std::size_t i = 0; i < disparity.size(); ++i)
+  {
+    if (disparity[i] > 0)
+    {
+      box.extend(view.imagePoints[i]);
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(box.sizes().prod() / count) : 0;
+}
+
 }
 
 void FeatureSupportOptions::Check() const
 {
+  if (!(this->spacings >= 0))
+  {
+    throw Error("The radius of a neighbourhood in spacings cannot be negative.");
+  }
   if (!(this->radius > 0))
   {
     throw Error("The radius of a feature's neighbourhood must be positive.");
@@ -107,7 +127,10 @@ std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& opt
 {
   options.Check();
   const std::vector<double> disparity = UsableDisparities(view);
-  const CellGrid grid(view.imagePoints, disparity, options.radius, view.camera);
+  const double radius = options.spacings > 0
+    ? std::max(options.spacings * MeanSpacing(view, disparity), 1.0)
+    : options.radius;
+  const CellGrid grid(view.imagePoints, disparity, radius, view.camera);
   std::vector<int> support(view.points.size(), 0);
   for (std::size_t i = 0; i < support.size(); ++i)
   {
@@ -118,7 +141,7 @@ std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& opt
     }
     grid.VisitNeighborhood(view.imagePoints[i], [&](std::size_t j) {
       const bool near
-        = (view.imagePoints[i] - view.imagePoints[j]).squaredNorm() <= options.radius * options.radius;
+        = (view.imagePoints[i] - view.imagePoints[j]).squaredNorm() <= radius * radius;
       const bool agrees = std::abs(disparity[i] - disparity[j])
         <= options.disparityTolerance * std::max(disparity[i], disparity[j]);
       support[i] += j != i && near && agrees;

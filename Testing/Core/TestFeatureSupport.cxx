@@ -115,3 +115,37 @@ TEST(FeatureSupport, OptionsOutOfRange)
   options.radius = 0;
   EXPECT_THROW(CountSupport(MakeView(), options), Error);
 }
+
+TEST(FeatureSupport, RadiusInSpacings)
+{
+  // A grid of 10 x 8 features 10 pixels apart covers 90 x 70 pixels: a mean spacing of 8.87.
+  View view = MakeView();
+  for (int i = 0; i < 80; ++i)
+  {
+    AddFeature(view, { 5.0 + i % 10 * 10, 5.0 + i / 10 * 10 }, 2);
+  }
+  FeatureSupportOptions options;
+  options.radius = 0.5;
+  options.spacings = 1.2; // 10.6 pixels: the four next to it
+  const std::vector<int> support = CountSupport(view, options);
+  EXPECT_EQ(support[0], 2);
+  EXPECT_EQ(support[1], 3);
+  EXPECT_EQ(support[11], 4);
+  options.spacings = 1.65; // 14.6 pixels: also the diagonal ones
+  EXPECT_EQ(CountSupport(view, options)[11], 8);
+  options.spacings = 0;
+  EXPECT_EQ(CountSupport(view, options)[11], 0) << "the radius in pixels";
+  options.spacings = -1;
+  EXPECT_THROW(CountSupport(view, options), Error);
+}
+
+TEST(FeatureSupport, RadiusInSpacingsOfCoincidentOrNoFeatures)
+{
+  View view = MakeView();
+  FeatureSupportOptions options;
+  options.spacings = 2;
+  EXPECT_TRUE(CountSupport(view, options).empty());
+  AddFeature(view, { 5, 5 }, 2);
+  AddFeature(view, { 5, 5 }, 2);
+  EXPECT_EQ(CountSupport(view, options), (std::vector<int>{ 1, 1 }));
+}
