@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreespaceUnion.h"
 
-#include "FreespaceUnion.h"
+#include "FreespaceQueries.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
+#include <vtkDoubleArray.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <atomic>
@@ -30,6 +33,18 @@ struct vtkFreespaceUnion::Internals
   /// The own MTime that Core was built for: what evaluations look at, which come by the million.
   std::atomic<vtkMTimeType> OwnBuildTime{ 0 };
 };
+
+namespace
+{
+
+Eigen::Vector3d PointOf(vtkPoints* points, std::size_t i)
+{
+  Eigen::Vector3d point;
+  points->GetPoint(static_cast<vtkIdType>(i), point.data());
+  return point;
+}
+
+}
 
 vtkFreespaceUnion::vtkFreespaceUnion()
   : Inner(new Internals)
@@ -165,6 +180,106 @@ void vtkFreespaceUnion::EvaluateGradient(double x[3], double g[3])
   {
     gradient = core->Gradient(Eigen::Vector3d(x));
   }
+}
+
+bool vtkFreespaceUnion::IsPointFree(const double point[3])
+{
+  const auto core = this->GetCore();
+  return !core || core->IsFree(Eigen::Vector3d(point));
+}
+
+double vtkFreespaceUnion::FirstBlocked(const double first[3], const double last[3])
+{
+  const auto core = this->GetCore();
+  return core ? freespace::FirstBlocked(*core, Eigen::Vector3d(first), Eigen::Vector3d(last))
+              : HUGE_VAL;
+}
+
+bool vtkFreespaceUnion::IsSegmentFree(const double first[3], const double last[3])
+{
+  return this->FirstBlocked(first, last) > 1.0;
+}
+
+bool vtkFreespaceUnion::IsSphereFree(const double center[3], double radius)
+{
+  const auto core = this->GetCore();
+  return !core || freespace::IsSphereFree(*core, Eigen::Vector3d(center), radius);
+}
+
+bool vtkFreespaceUnion::IsBoxFree(const double bounds[6])
+{
+  const auto core = this->GetCore();
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+    Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
+  return !core || freespace::IsBoxFree(*core, box);
+}
+
+bool vtkFreespaceUnion::HaveSameSize(vtkIdType size, vtkIdType otherSize)
+{
+  if (size != otherSize)
+  {
+    vtkErrorMacro("A batch has " << size << " and " << otherSize << " entries.");
+  }
+  return size == otherSize;
+}
+
+bool vtkFreespaceUnion::ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free)
+{
+  const auto core = this->GetCore();
+  free->SetNumberOfComponents(1);
+  free->SetNumberOfValues(points->GetNumberOfPoints());
+  freespace::SMPParallelFor(points->GetNumberOfPoints(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        free->SetValue(i, !core || core->IsFree(PointOf(points, i)));
+      }
+    });
+  return true;
+}
+
+bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions)
+{
+  if (!this->HaveSameSize(first->GetNumberOfPoints(), last->GetNumberOfPoints()))
+  {
+    return false;
+  }
+  const auto core = this->GetCore();
+  fractions->SetNumberOfComponents(1);
+  fractions->SetNumberOfValues(first->GetNumberOfPoints());
+  freespace::SMPParallelFor(first->GetNumberOfPoints(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        fractions->SetValue(
+          i, core ? freespace::FirstBlocked(*core, PointOf(first, i), PointOf(last, i)) : HUGE_VAL);
+      }
+    });
+  return true;
+}
+
+bool vtkFreespaceUnion::AreSpheresFree(
+  vtkPoints* centers, vtkDoubleArray* radii, vtkUnsignedCharArray* free)
+{
+  if (!this->HaveSameSize(centers->GetNumberOfPoints(), radii->GetNumberOfValues()))
+  {
+    return false;
+  }
+  const auto core = this->GetCore();
+  free->SetNumberOfComponents(1);
+  free->SetNumberOfValues(centers->GetNumberOfPoints());
+  freespace::SMPParallelFor(centers->GetNumberOfPoints(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        free->SetValue(
+          i, !core || freespace::IsSphereFree(*core, PointOf(centers, i), radii->GetValue(i)));
+      }
+    });
+  return true;
 }
 
 void vtkFreespaceUnion::GetBounds(double bounds[6])

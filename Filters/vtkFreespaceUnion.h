@@ -39,7 +39,10 @@
 #include <memory> // for the inner structures
 
 class vtkAlgorithmOutput;
+class vtkDoubleArray;
 class vtkMultiBlockDataSet;
+class vtkPoints;
+class vtkUnsignedCharArray;
 namespace freespace
 {
 class FreespaceUnion;
@@ -92,6 +95,35 @@ public:
   void EvaluateGradient(double x[3], double g[3]) override;
   ///@}
 
+  ///@{
+  /**
+   * Queries of the last page of the paper, "obstacle avoidance and ray tracing". They bring the
+   * function up to date first, so that several threads may ask only after an Update. Coordinates are
+   * the function's own: a Transform is not applied. Matter is closed.
+   *
+   * FirstBlocked is the first place where a segment leaves free space, as a fraction of it, exact:
+   * 0 when it begins in matter, infinite when all of it is free. IsSphereFree and IsBoxFree tell
+   * whether all of a closed ball or box (x0, x1, y0, y1, z0, z1) is free: true is certain; false can
+   * also mean that matter is closer than about a thousandth of the body's size, or that the free
+   * spaces of two views only just meet in it.
+   */
+  bool IsPointFree(const double point[3]);
+  double FirstBlocked(const double first[3], const double last[3]);
+  bool IsSegmentFree(const double first[3], const double last[3]);
+  bool IsSphereFree(const double center[3], double radius);
+  bool IsBoxFree(const double bounds[6]);
+  ///@}
+
+  ///@{
+  /**
+   * The same in batches, on all threads: results are resized to one value for each point (segment,
+   * ball), 1 where it is free. False, with an error, when the numbers of points do not agree.
+   */
+  bool ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free);
+  bool FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions);
+  bool AreSpheresFree(vtkPoints* centers, vtkDoubleArray* radii, vtkUnsignedCharArray* free);
+  ///@}
+
   /**
    * Brings the maps and the inner structures up to date.
    */
@@ -135,6 +167,7 @@ private:
   struct Internals;
   const freespace::FreespaceUnion* Built();
   void Build();
+  bool HaveSameSize(vtkIdType size, vtkIdType otherSize);
 
   std::unique_ptr<Internals> Inner;
 };

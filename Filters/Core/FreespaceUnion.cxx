@@ -57,8 +57,8 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   options.Check();
   if (maps.size() > MostViews)
   {
-    throw Error("There are " + std::to_string(maps.size()) + " views, at most "
-      + std::to_string(MostViews) + " can be united.");
+    throw Error("There are " + std::to_string(maps.size()) + " views, at most " +
+      std::to_string(MostViews) + " can be united.");
   }
   std::vector<Vector3d> features;
   Eigen::AlignedBox3d box;
@@ -209,9 +209,33 @@ BoxContent FreespaceUnion::Classify(
       return BoxContent::Free;
     }
   }
-  const bool never =
-    scope.freeViews + static_cast<int>(scope.views.size()) < this->Options.minimumViews;
-  return never && hull == BoxContent::Matter ? BoxContent::Matter : BoxContent::Mixed;
+  return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
+}
+
+// Whether anything that a scope leaves open can still make a point free.
+bool FreespaceUnion::CanOpen(const FieldScope& scope) const
+{
+  return !scope.planes.empty() ||
+    scope.freeViews + static_cast<int>(scope.views.size()) >= this->Options.minimumViews;
+}
+
+BoxContent FreespaceUnion::ClassifyFinely(const Eigen::AlignedBox3d& box, FieldScope& scope) const
+{
+  std::vector<int> open;
+  for (int view : scope.views)
+  {
+    const BoxContent content = this->Views[view]->ClassifyFinely(box);
+    if (content == BoxContent::Mixed)
+    {
+      open.push_back(view);
+    }
+    else if (content == BoxContent::Free && ++scope.freeViews >= this->Options.minimumViews)
+    {
+      return BoxContent::Free;
+    }
+  }
+  scope.views = std::move(open);
+  return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
 }
 
 bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,

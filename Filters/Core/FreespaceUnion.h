@@ -52,12 +52,17 @@ public:
   FieldScope Root() const override;
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
+
+  /// Decides views of a scope by their triangles, for a small box that Classify left Mixed.
+  BoxContent ClassifyFinely(const Eigen::AlignedBox3d& box, FieldScope& scope) const;
+
   bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free, const FieldScope& scope,
     double& place, SurfaceLabel& label) const override;
   SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter,
     const FieldScope& scope) const override;
   bool IsThreadSafe() const override { return true; }
 
+  int MinimumViews() const { return this->Options.minimumViews; }
   const FeatureHull& Hull() const { return *this->FeaturesHull; }
   std::size_t NumberOfViews() const { return this->Views.size(); }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
@@ -68,6 +73,7 @@ private:
     double value;
     Eigen::Vector3d gradient;
   };
+  bool CanOpen(const FieldScope& scope) const;
   SurfaceLabel LabelOfView(
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;

@@ -507,6 +507,16 @@ Vector3d ViewFreespace::LineThrough(int a, int b) const
   return a < b ? line : Vector3d(-line);
 }
 
+// The disparity of a triangle as a form on homogeneous raster coordinates: a point is in front of it
+// where the form is below 1.
+Vector3d ViewFreespace::PlaneOf(const Triangle& triangle) const
+{
+  const Corner& corner = this->Corners[triangle.corner[0]];
+  return Vector3d(triangle.slopeX, triangle.slopeY,
+    corner.disparity - triangle.slopeX * corner.position.x() -
+      triangle.slopeY * corner.position.y());
+}
+
 // Narrows a range of a segment, given in raster coordinates, to what is over a triangle and in front
 // of it. Homogeneous coordinates are linear along the segment, and so are the tests.
 void ViewFreespace::ClipToTriangle(const Triangle& triangle, const Vector3d& first,
@@ -527,10 +537,7 @@ void ViewFreespace::ClipToTriangle(const Triangle& triangle, const Vector3d& fir
       end = std::min(end, atFirst / (atFirst - atLast));
     }
   };
-  const Corner& corner = this->Corners[triangle.corner[0]];
-  const Vector3d plane(triangle.slopeX, triangle.slopeY,
-    corner.disparity - triangle.slopeX * corner.position.x() -
-      triangle.slopeY * corner.position.y());
+  const Vector3d plane = this->PlaneOf(triangle);
   clip(1.0 - plane.dot(first), 1.0 - plane.dot(last));
   for (int i = 0; i < 3 && begin <= end; ++i)
   {
@@ -635,71 +642,130 @@ void ViewFreespace::AddFreeInCell(int column, int row, const Vector3d& first, co
   }
 }
 
-BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const
+ViewFreespace::Footprint ViewFreespace::FootprintOf(const Eigen::AlignedBox3d& box) const
 {
-  if (this->Triangles.empty())
-  {
-    return BoxContent::Matter;
-  }
+  Footprint print = {};
   const Vector3d half = 0.5 * box.sizes();
   const Vector3d center = this->Raster(box.center());
-  const double depthReach =
-    this->RasterFromWorld.row(2).head<3>().cwiseAbs().dot(half) + 1e-12 * std::abs(center.z());
-  const double nearest = center.z() - depthReach;
-  const double furthest = center.z() + depthReach;
-  if (furthest <= 0)
+  const Eigen::RowVector3d depthRow = this->RasterFromWorld.row(2).head<3>();
+  const double depthReach = depthRow.cwiseAbs().dot(half) + 1e-12 * std::abs(center.z());
+  print.nearest = center.z() - depthReach;
+  print.furthest = center.z() + depthReach;
+  print.isBehind = print.furthest <= 0;
+  print.isAround = print.nearest <= 1e-3 * print.furthest;
+  if (print.isBehind || print.isAround)
   {
-    return BoxContent::Matter;
-  }
-  if (nearest <= 1e-3 * furthest)
-  {
-    return BoxContent::Mixed;
+    return print;
   }
   // How far the box reaches in the image from its centre's pixel: the centre's own perspective is
   // taken out first, so that what remains is of the box's size.
-  int low[2], high[2];
   const int size[2] = { this->Width, this->Height };
-  bool whole = true;
+  print.isWithin = true;
   for (int axis = 0; axis < 2; ++axis)
   {
     const double pixel = center[axis] / center.z();
-    const double reach = (this->RasterFromWorld.row(axis) - pixel * this->RasterFromWorld.row(2))
-                           .head<3>()
-                           .cwiseAbs()
-                           .dot(half) /
-        nearest +
-      1e-9 * (1 + std::abs(pixel));
-    if (pixel + reach < 0 || pixel - reach >= size[axis])
-    {
-      return BoxContent::Matter;
-    }
-    whole = whole && pixel - reach >= 0 && pixel + reach < size[axis];
-    low[axis] = static_cast<int>(std::max(pixel - reach, 0.0));
-    high[axis] = static_cast<int>(std::min(pixel + reach, size[axis] - 1.0));
+    const Eigen::RowVector3d row = this->RasterFromWorld.row(axis).head<3>() - pixel * depthRow;
+    const double reach = row.cwiseAbs().dot(half) / print.nearest + 1e-9 * (1 + std::abs(pixel));
+    print.isBehind = print.isBehind || pixel + reach < 0 || pixel - reach >= size[axis];
+    print.isWithin = print.isWithin && pixel - reach >= 0 && pixel + reach < size[axis];
+    print.low[axis] = static_cast<int>(std::clamp(pixel - reach, 0.0, size[axis] - 1.0));
+    print.high[axis] = static_cast<int>(std::clamp(pixel + reach, 0.0, size[axis] - 1.0));
+  }
+  return print;
+}
+
+BoxContent ViewFreespace::Classify(const Eigen::AlignedBox3d& box) const
+{
+  const Footprint print = this->FootprintOf(box);
+  if (this->Triangles.empty() || print.isBehind)
+  {
+    return BoxContent::Matter;
+  }
+  if (print.isAround)
+  {
+    return BoxContent::Mixed;
   }
   // The level at which the box's image spans a few cells.
   std::size_t level = 0;
   while (level + 1 < this->Pyramid.size() &&
-    std::max((high[0] >> level) - (low[0] >> level), (high[1] >> level) - (low[1] >> level)) > 3)
+    std::max((print.high[0] >> level) - (print.low[0] >> level),
+      (print.high[1] >> level) - (print.low[1] >> level)) > 3)
   {
     ++level;
   }
   const Level& cells = this->Pyramid[level];
-  float least = Infinity, most = whole ? -Infinity : Infinity;
-  for (int y = low[1] >> level; y <= high[1] >> level; ++y)
+  float least = Infinity, most = print.isWithin ? -Infinity : Infinity;
+  for (int y = print.low[1] >> level; y <= print.high[1] >> level; ++y)
   {
-    for (int x = low[0] >> level; x <= high[0] >> level; ++x)
+    for (int x = print.low[0] >> level; x <= print.high[0] >> level; ++x)
     {
       const auto& bounds = cells.bounds[static_cast<std::size_t>(y) * cells.width + x];
       least = std::min(least, bounds.first);
       most = std::max(most, bounds.second);
     }
   }
-  if (most * furthest < 1.0)
+  if (most * print.furthest < 1.0)
   {
     return BoxContent::Free;
   }
-  return least * nearest > 1.0 ? BoxContent::Matter : BoxContent::Mixed;
+  return least * print.nearest > 1.0 ? BoxContent::Matter : BoxContent::Mixed;
+}
+
+BoxContent ViewFreespace::ClassifyFinely(const Eigen::AlignedBox3d& box) const
+{
+  const Footprint print = this->FootprintOf(box);
+  if (this->Triangles.empty() || print.isBehind)
+  {
+    return BoxContent::Matter;
+  }
+  if (print.isAround || print.high[0] - print.low[0] > 3 || print.high[1] - print.low[1] > 3)
+  {
+    return BoxContent::Mixed;
+  }
+  // Homogeneous forms are linear in space too: each takes its extremes over the box at corners.
+  const Vector3d center = this->Raster(box.center()), half = 0.5 * box.sizes();
+  const auto reach = [&](const Vector3d& form)
+  {
+    return (this->RasterFromWorld.leftCols<3>().transpose() * form).cwiseAbs().dot(half) +
+      1e-12 * form.cwiseAbs().dot(center.cwiseAbs());
+  };
+  bool isTouched = false, isFree = true, isMatter = true;
+  for (int row = print.low[1]; row <= print.high[1]; ++row)
+  {
+    for (int column = print.low[0]; column <= print.high[0]; ++column)
+    {
+      const std::size_t cell = static_cast<std::size_t>(row) * this->Width + column;
+      for (int i = this->ListBegin[cell]; i < this->ListBegin[cell + 1]; ++i)
+      {
+        const Triangle& triangle = this->Triangles[this->List[i]];
+        bool isBeside = false, isOverBorder = false;
+        for (int side = 0; side < 3; ++side)
+        {
+          const Vector3d line =
+            this->LineThrough(triangle.corner[side], triangle.corner[(side + 1) % 3]);
+          const double inside = line.dot(center), across = reach(line);
+          isBeside = isBeside || inside + across < 0;
+          isOverBorder = isOverBorder || (triangle.neighbor[side] < 0 && inside - across < 0);
+        }
+        if (isBeside)
+        {
+          continue;
+        }
+        const Vector3d plane = this->PlaneOf(triangle);
+        const double at = plane.dot(center), across = reach(plane);
+        isTouched = true;
+        isFree = isFree && !isOverBorder && at + across < 1.0;
+        isMatter = isMatter && at - across > 1.0;
+      }
+    }
+  }
+  // Not every triangle taken for touched is so. But where the centre is claimed and no border passes,
+  // all of the box is.
+  if (isTouched && isFree && this->At(box.center()).triangle >= 0)
+  {
+    return BoxContent::Free;
+  }
+  return isMatter ? BoxContent::Matter : BoxContent::Mixed;
 }
 
 }

@@ -55,6 +55,10 @@ public:
   /// Free: the view says so for all the box; Matter: for no point of it. Conservative.
   BoxContent Classify(const Eigen::AlignedBox3d& box) const;
 
+  /// The same for boxes that span no more than a few cells of the raster, from the triangles
+  /// themselves: it tends to the exact answer as the box shrinks. Mixed for larger boxes.
+  BoxContent ClassifyFinely(const Eigen::AlignedBox3d& box) const;
+
   std::size_t NumberOfTriangles() const { return this->Triangles.size(); }
 
 private:
@@ -82,6 +86,17 @@ private:
     int width, height;
     std::vector<std::pair<float, float>> bounds;
   };
+  /// The cells that a box's image touches.
+  struct Footprint
+  {
+    bool isBehind;            ///< the box is behind the camera, or beside the raster
+    bool isAround;            ///< the box is too close to the camera to tell
+    bool isWithin;            ///< no part of the image is beside the raster
+    double nearest, furthest; ///< depths
+    int low[2], high[2];
+  };
+  Footprint FootprintOf(const Eigen::AlignedBox3d& box) const;
+
   struct Pixel
   {
     double x, y, depth;
@@ -93,6 +108,7 @@ private:
   }
   bool Project(const Eigen::Vector3d& point, Pixel& pixel) const;
   Eigen::Vector3d LineThrough(int a, int b) const;
+  Eigen::Vector3d PlaneOf(const Triangle& triangle) const;
   void ClipToTriangle(const Triangle& triangle, const Eigen::Vector3d& first,
     const Eigen::Vector3d& last, double& begin, double& end) const;
   struct Walk

@@ -8,6 +8,7 @@
 #include <vtkClipPolyData.h>
 #include <vtkCommand.h>
 #include <vtkCutter.h>
+#include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -21,6 +22,7 @@
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
 #include <vtkTrivialProducer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
@@ -122,6 +124,55 @@ TEST(vtkFreespaceUnion, FollowsItsMaps)
   time = phi->GetMTime();
   phi->SetHullMargin(0.5);
   EXPECT_GT(phi->GetMTime(), time);
+}
+
+TEST(vtkFreespaceUnion, BatchesAgreeWithSingleQueries)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkPoints> first, last;
+  vtkNew<vtkDoubleArray> radii, fractions;
+  vtkNew<vtkUnsignedCharArray> points, spheres;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Eigen::Vector3d a = 1.5 * Eigen::Vector3d::Random(), b = 1.5 * Eigen::Vector3d::Random();
+    first->InsertNextPoint(a.data());
+    last->InsertNextPoint(b.data());
+    radii->InsertNextValue(0.1 * (i % 4));
+  }
+  ASSERT_TRUE(phi->ArePointsFree(first, points));
+  ASSERT_TRUE(phi->FirstBlocked(first, last, fractions));
+  ASSERT_TRUE(phi->AreSpheresFree(first, radii, spheres));
+  ASSERT_EQ(fractions->GetNumberOfValues(), 2000);
+  int count[3] = { 0, 0, 0 };
+  for (int i = 0; i < 2000; ++i)
+  {
+    double a[3], b[3];
+    first->GetPoint(i, a);
+    last->GetPoint(i, b);
+    ASSERT_EQ(points->GetValue(i), phi->IsPointFree(a));
+    ASSERT_EQ(fractions->GetValue(i), phi->FirstBlocked(a, b));
+    ASSERT_EQ(fractions->GetValue(i) > 1, phi->IsSegmentFree(a, b));
+    ASSERT_EQ(spheres->GetValue(i), phi->IsSphereFree(a, radii->GetValue(i)));
+    count[0] += points->GetValue(i);
+    count[1] += fractions->GetValue(i) > 1;
+    count[2] += spheres->GetValue(i);
+  }
+  for (int c : count)
+  {
+    EXPECT_GT(c, 100);
+    EXPECT_LT(c, 1900);
+  }
+  const double far[6] = { 50, 51, 50, 51, 50, 51 }, all[6] = { -9, 9, -9, 9, -9, 9 };
+  EXPECT_TRUE(phi->IsBoxFree(far));
+  EXPECT_FALSE(phi->IsBoxFree(all));
+
+  vtkNew<Errors> errors;
+  phi->AddObserver(vtkCommand::ErrorEvent, errors);
+  first->InsertNextPoint(0, 0, 0);
+  EXPECT_FALSE(phi->FirstBlocked(first, last, fractions));
+  EXPECT_FALSE(phi->AreSpheresFree(first, radii, spheres));
+  EXPECT_EQ(errors->Count, 2);
 }
 
 TEST(vtkFreespaceUnion, TellsWhatIsWrong)

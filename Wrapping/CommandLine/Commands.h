@@ -17,6 +17,7 @@ void AddClustersCommand(CLI::App& program, Session& session);
 void AddStereoCommand(CLI::App& program, Session& session);
 void AddTriangulateCommand(CLI::App& program, Session& session);
 void AddContourCommand(CLI::App& program, Session& session);
+void AddQueryCommand(CLI::App& program, Session& session);
 void AddRenderCommand(CLI::App& program, Session& session);
 
 }

@@ -70,6 +70,7 @@ int Run(int argc, char* argv[])
   freespace::AddStereoCommand(program, session);
   freespace::AddTriangulateCommand(program, session);
   freespace::AddContourCommand(program, session);
+  freespace::AddQueryCommand(program, session);
   freespace::AddRenderCommand(program, session);
   for (CLI::App* command : program.get_subcommands({}))
   {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "Error.h"
+#include "Session.h"
+#include "Stages.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFreespaceUnion.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string maps;
+  std::string points;
+  std::string segments;
+  double hullMargin = 0.01;
+  int minimumViews = 1;
+};
+
+// Rows of so many numbers, parted by commas or blanks. A first row that is no numbers is a heading.
+std::vector<double> ReadTable(const std::string& fileName, std::size_t columns)
+{
+  std::ifstream file(fileName);
+  if (!file)
+  {
+    throw Error(fileName + " cannot be read.");
+  }
+  std::vector<double> numbers;
+  std::string line;
+  for (int row = 1; std::getline(file, line); ++row)
+  {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream words(line);
+    std::vector<double> values;
+    for (double value; words >> value;)
+    {
+      values.push_back(value);
+    }
+    const bool isBlank = line.find_first_not_of(" \t\r") == std::string::npos;
+    if (isBlank || (row == 1 && values.empty()))
+    {
+      continue;
+    }
+    if (values.size() != columns || !(words.eof() || words >> std::ws))
+    {
+      throw Error(fileName + " has no " + std::to_string(columns) + " numbers in line " +
+        std::to_string(row) + ".");
+    }
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  return numbers;
+}
+
+void TellPoints(vtkFreespaceUnion* phi, const std::string& fileName)
+{
+  const std::vector<double> numbers = ReadTable(fileName, 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+  {
+    points->InsertNextPoint(&numbers[i]);
+  }
+  vtkNew<vtkUnsignedCharArray> free;
+  phi->ArePointsFree(points, free);
+  std::cout << "free\n";
+  for (vtkIdType i = 0; i < free->GetNumberOfValues(); ++i)
+  {
+    std::cout << static_cast<int>(free->GetValue(i)) << "\n";
+  }
+}
+
+void TellSegments(vtkFreespaceUnion* phi, const std::string& fileName)
+{
+  const std::vector<double> numbers = ReadTable(fileName, 6);
+  vtkNew<vtkPoints> first, last;
+  first->SetDataTypeToDouble();
+  last->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < numbers.size(); i += 6)
+  {
+    first->InsertNextPoint(&numbers[i]);
+    last->InsertNextPoint(&numbers[i + 3]);
+  }
+  vtkNew<vtkDoubleArray> fractions;
+  phi->FirstBlocked(first, last, fractions);
+  std::cout << "first_blocked\n";
+  std::cout.precision(10);
+  for (vtkIdType i = 0; i < fractions->GetNumberOfValues(); ++i)
+  {
+    std::cout << fractions->GetValue(i) << "\n";
+  }
+}
+
+}
+
+void AddQueryCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("query", "Ask which points and segments lie in free space");
+  command->add_option("maps", settings->maps, "What 'triangulate' wrote")
+    ->required()
+    ->type_name("MAPS.vtm");
+  auto* points =
+    command->add_option("--points", settings->points, "Rows x,y,z; tells 1 for each that is free")
+      ->type_name("FILE.csv");
+  auto* segments = command
+                     ->add_option("--segments", settings->segments,
+                       "Rows x0,y0,z0,x1,y1,z1; tells where each first leaves free space, as a "
+                       "fraction of it; inf: nowhere")
+                     ->type_name("FILE.csv");
+  points->excludes(segments);
+  command
+    ->add_option("--hull-margin", settings->hullMargin,
+      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str();
+  command
+    ->add_option(
+      "--min-views", settings->minimumViews, "Views that must agree that a point is free")
+    ->check(CLI::PositiveNumber)
+    ->capture_default_str();
+  command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv");
+  command->callback(
+    [settings, &session]()
+    {
+      if (settings->points.empty() && settings->segments.empty())
+      {
+        throw Error("There is nothing to ask: give --points or --segments.");
+      }
+      vtkNew<vtkFreespaceUnion> phi;
+      phi->SetMaps(ReadViews(session, settings->maps));
+      phi->SetHullMargin(settings->hullMargin);
+      phi->SetMinimumViews(settings->minimumViews);
+      if (!phi->IsValid())
+      {
+        session.ThrowIfFailed();
+      }
+      settings->points.empty() ? TellSegments(phi, settings->segments)
+                               : TellPoints(phi, settings->points);
+    });
+}
+
+}
