@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Turntable.h"
+
+#include "Error.h"
+
+#include <cmath>
+
+namespace freespace
+{
+
+namespace
+{
+
+Eigen::Vector3d PointNearestToAxes(const std::vector<Camera>& cameras)
+{
+  Eigen::Matrix3d system = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Camera& camera : cameras)
+  {
+    const Eigen::Vector3d axis = camera.R.row(2);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    system += across;
+    right += across * camera.Center();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> values(system);
+  if (!(values.eigenvalues()[0] > 1e-4 * cameras.size()))
+  {
+    throw Error("The cameras all look the same way: there is no middle for a turntable.");
+  }
+  return system.ldlt().solve(right);
+}
+
+Camera LookFrom(const Camera& like, const Eigen::Vector3d& center, const Eigen::Vector3d& middle,
+  const Eigen::Vector3d& up)
+{
+  Camera camera = like;
+  const Eigen::Vector3d forward = (middle - center).normalized();
+  const Eigen::Vector3d right = forward.cross(up).normalized();
+  camera.R << right.transpose(), forward.cross(right).transpose(), forward.transpose();
+  camera.t = -camera.R * center;
+  return camera;
+}
+
+}
+
+std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int count)
+{
+  if (cameras.empty())
+  {
+    throw Error("A turntable needs a camera to begin with.");
+  }
+  const Eigen::Vector3d middle = PointNearestToAxes(cameras);
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const Camera& camera : cameras)
+  {
+    up -= camera.R.row(1).transpose() / cameras.size();
+  }
+  if (!(up.norm() > 0.05))
+  {
+    throw Error("The cameras are turned every way: there is no up for a turntable.");
+  }
+  up.normalize();
+  double height = 0;
+  double radius = 0;
+  for (const Camera& camera : cameras)
+  {
+    const Eigen::Vector3d from = camera.Center() - middle;
+    height += from.dot(up) / cameras.size();
+    radius += (from - from.dot(up) * up).norm() / cameras.size();
+  }
+  const Eigen::Vector3d first = cameras[0].Center() - middle;
+  const Eigen::Vector3d start = (first - first.dot(up) * up).normalized();
+  const Eigen::Vector3d side = up.cross(start);
+  std::vector<Camera> path;
+  for (int i = 0; i < count; ++i)
+  {
+    const double angle = 2 * M_PI * i / count;
+    const Eigen::Vector3d around = std::cos(angle) * start + std::sin(angle) * side;
+    path.push_back(LookFrom(cameras[0], middle + radius * around + height * up, middle, up));
+  }
+  return path;
+}
+
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "Error.h"
+#include "Session.h"
+#include "Stages.h"
+#include "Turntable.h"
+#include "ViewBlocks.h"
+
+#include <vtkCameraReader.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPhotographReader.h>
+#include <vtkPolyData.h>
+#include <vtkSurfacePicture.h>
+#include <vtkViewDependentTextureMapper.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace freespace
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct Settings
+{
+  std::string scene;
+  std::string mesh;
+  std::string output;
+  std::string view;
+  std::string model;
+  int turntable = 0;
+};
+
+void AddOptions(CLI::App& command, Settings& settings)
+{
+  command.add_option("scene", settings.scene, "The scene whose photographs colour the surface")
+    ->required()
+    ->type_name("SCENE.json");
+  command.add_option("--mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
+    ->required()
+    ->type_name("MESH.ply");
+  command
+    .add_option("-o,--output", settings.output,
+      "The picture to write for --view, the folder of pictures for --model and --turntable")
+    ->required()
+    ->type_name("OUT");
+  auto* from = command.add_option_group("viewpoint", "Where to look from");
+  from->add_option("--view", settings.view, "The camera of this image of the scene")
+    ->type_name("NAME");
+  from->add_option("--model", settings.model, "Each camera of this COLMAP model")
+    ->type_name("FOLDER");
+  from->add_option("--turntable", settings.turntable, "So many cameras around the scene")
+    ->check(CLI::PositiveNumber)
+    ->type_name("N");
+  from->require_option(1);
+}
+
+/// A camera to look from, and the file to write.
+struct Shot
+{
+  vtkSmartPointer<vtkPolyData> view;
+  std::string fileName;
+};
+
+std::vector<Shot> ShotsOfModel(vtkMultiBlockDataSet* cameras, const fs::path& folder)
+{
+  std::vector<Shot> shots;
+  for (unsigned int i = 0; i < cameras->GetNumberOfBlocks(); ++i)
+  {
+    const fs::path name = fs::path(BlockName(cameras, i)).filename().replace_extension(".png");
+    shots.push_back({ vtkPolyData::SafeDownCast(cameras->GetBlock(i)), (folder / name).string() });
+  }
+  return shots;
+}
+
+std::vector<Shot> ShotsOfTurntable(vtkMultiBlockDataSet* cameras, int count, const fs::path& folder)
+{
+  std::vector<Camera> known;
+  for (unsigned int i = 0; i < cameras->GetNumberOfBlocks(); ++i)
+  {
+    known.push_back(CameraFromBlock(cameras->GetBlock(i), BlockName(cameras, i)));
+  }
+  std::vector<Shot> shots;
+  for (const Camera& camera : TurntableCameras(known, count))
+  {
+    View view;
+    view.camera = camera;
+    std::string number = std::to_string(shots.size());
+    number.insert(0, std::to_string(count - 1).size() - number.size(), '0');
+    shots.push_back({ BlockFromView(view), (folder / (number + ".png")).string() });
+  }
+  return shots;
+}
+
+std::vector<Shot> FindShots(Session& session, const Settings& settings)
+{
+  vtkNew<vtkCameraReader> cameras;
+  cameras->SetFileName(settings.model.empty() ? settings.scene : settings.model);
+  session.Run(cameras, "cameras");
+  if (!settings.view.empty())
+  {
+    vtkPolyData* view = cameras->GetView(settings.view);
+    if (!view)
+    {
+      throw Error(settings.scene + " has no image '" + settings.view + "'.");
+    }
+    return { { view, settings.output } };
+  }
+  return settings.turntable > 0
+    ? ShotsOfTurntable(cameras->GetOutput(), settings.turntable, settings.output)
+    : ShotsOfModel(cameras->GetOutput(), settings.output);
+}
+
+void PrepareOutput(const Settings& settings)
+{
+  if (!settings.view.empty())
+  {
+    if (fs::path(settings.output).extension() != ".png")
+    {
+      throw Error("Cannot write '" + settings.output + "': the name of a picture ends in .png.");
+    }
+    return;
+  }
+  std::error_code problem;
+  fs::create_directories(settings.output, problem);
+  if (problem)
+  {
+    throw Error("Cannot make the folder " + settings.output + ": " + problem.message() + ".");
+  }
+}
+
+void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned int photographs)
+{
+  const int inUse = mapper->GetNumberOfViewsInUse();
+  session.Tell("colours from " + std::to_string(inUse) + " of " + std::to_string(photographs) +
+    " photographs" + (inUse < int(photographs) ? ", the best for this camera" : ""));
+}
+
+void ViewScene(Session& session, const Settings& settings)
+{
+  const std::vector<Shot> shots = FindShots(session, settings);
+  PrepareOutput(settings);
+  const auto surface = ReadSurface(session, settings.mesh);
+  vtkNew<vtkPhotographReader> photographs;
+  photographs->SetFileName(settings.scene);
+  session.Run(photographs, "photographs");
+  vtkNew<vtkViewDependentTextureMapper> mapper;
+  mapper->SetPhotographs(photographs->GetOutput());
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputDataObject(surface);
+  picture->SetMapper(mapper);
+  picture->SetSamples(1); // the mapper samples edges by itself
+  for (const Shot& shot : shots)
+  {
+    picture->SetViewBlock(shot.view);
+    session.Run(picture, fs::path(shot.fileName).filename().string());
+    picture->WritePNG(shot.fileName);
+    session.ThrowIfFailed();
+    TellViews(session, mapper, photographs->GetOutput()->GetNumberOfBlocks());
+  }
+}
+
+}
+
+void AddViewCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("view", "Make pictures of a surface in the colours of the photographs");
+  AddOptions(*command, *settings);
+  command->footer("Examples:\n"
+                  "  freespace view scene.json --mesh mesh.ply --view c.jpg -o c.png\n"
+                  "  freespace view scene.json --mesh mesh.ply --model novel -o pictures\n"
+                  "  freespace view scene.json --mesh mesh.ply --turntable 36 -o pictures");
+  command->callback([settings, &session]() { ViewScene(session, *settings); });
+}
+
+}
