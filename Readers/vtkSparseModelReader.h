@@ -33,6 +33,10 @@
  * | FieldData | Keypoint            | double x2      | observations that are no features        |
  * | FieldData | KeypointObservation | int            | their places among those of the image    |
  *
+ * Isolated points want a vtkFeatureSupportFilter behind the reader that follows their density
+ * (RadiusInSpacings 2, MinimumNeighbors 2, DisparityTolerance 0.05), and a vtkDelaunayDisparityFilter
+ * without ContinueBackground: so it was measured on tracks made from a scene with known truth.
+ *
  * A model that is missing, truncated or malformed, one with a camera model that is not supported,
  * and one without a single view is an error that names the file; the output is then empty. After an
  * abort it is empty, too.
@@ -62,7 +66,7 @@ public:
 
   ///@{
   /**
-   * So many images must see a point. Default 3: two may agree by chance.
+   * So many images must see a point. Default 2.
    */
   vtkSetMacro(MinimumTrackLength, int);
   vtkGetMacro(MinimumTrackLength, int);
@@ -78,7 +82,8 @@ public:
 
   ///@{
   /**
-   * The greatest angle between two rays to a point must be so large, in degrees. Default 1.
+   * The greatest angle between two rays to a point must be so large, in degrees, or as large as that
+   * of half of the points: where all baselines are short the better half is kept. Default 5.
    */
   vtkSetMacro(MinimumAngle, double);
   vtkGetMacro(MinimumAngle, double);
@@ -105,9 +110,9 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::string FileName;
-  int MinimumTrackLength = 3;
+  int MinimumTrackLength = 2;
   double MaximumError = 4.0;
-  double MinimumAngle = 1.0;
+  double MinimumAngle = 5.0;
   int MinimumFeatures = 10;
 
 private:

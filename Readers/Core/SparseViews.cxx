@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <opencv2/calib3d.hpp>
 
@@ -59,14 +60,20 @@ public:
     , Tracks(model)
     , Usable(model.points.size(), 0)
   {
-    parallelFor(model.points.size(),
-      [this](std::size_t begin, std::size_t end)
+    std::vector<double> angles(model.points.size());
+    parallelFor(angles.size(),
+      [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->Usable[i] = this->IsUsable(i);
+          angles[i] = this->AngleOf(i);
         }
       });
+    const double least = this->LeastAngle(angles);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+    {
+      this->Usable[i] = angles[i] >= least;
+    }
   }
 
   SparseView MakeView(std::size_t image) const
@@ -95,12 +102,28 @@ public:
   }
 
 private:
+  // The one asked for, or the median where that is less.
+  double LeastAngle(const std::vector<double>& angles) const
+  {
+    std::vector<double> known;
+    std::copy_if(angles.begin(), angles.end(), std::back_inserter(known),
+      [](double angle) { return angle >= 0; });
+    if (known.empty())
+    {
+      return 0;
+    }
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    return std::min(*middle, this->Options.minimumAngle * radian);
+  }
+
   const Eigen::Vector3d& Position(std::size_t point) const
   {
     return this->Model.points[point].position;
   }
 
-  bool IsUsable(std::size_t point) const
+  // -1 for a point that too few images see.
+  double AngleOf(std::size_t point) const
   {
     std::vector<Eigen::Vector3d> rays;
     int last = -1, images = 0;
@@ -114,8 +137,7 @@ private:
         rays.push_back((this->Position(point) - image.camera.Center()).normalized());
       }
     }
-    return images >= this->Options.minimumTrackLength &&
-      GreatestAngle(rays) >= this->Options.minimumAngle * radian;
+    return images >= this->Options.minimumTrackLength ? GreatestAngle(rays) : -1;
   }
 
   // Those whose projection is near enough. Pixels near the image are about as large with and

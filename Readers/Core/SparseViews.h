@@ -12,10 +12,12 @@ namespace freespace
 /// Which observations of a structure-from-motion model are good enough to be features.
 struct SparseViewOptions
 {
-  int minimumTrackLength = 3; ///< images that must see a point; two may agree by chance
+  int minimumTrackLength = 2; ///< images that must see a point
   double maximumError = 4.0;  ///< between an observation and the projection of its point, pixels
-  double minimumAngle = 1.0;  ///< the greatest between two rays to a point, degrees
-  int minimumFeatures = 10;   ///< images with fewer inside of the picture are left out
+  /// The greatest angle between two rays to a point must be so large, degrees, or as large as that of
+  /// half of the points: what is left where all baselines are short is the better half.
+  double minimumAngle = 5.0;
+  int minimumFeatures = 10; ///< images with fewer inside of the picture are left out
 
   /// Throws Error when a field is out of its range.
   void Check() const;

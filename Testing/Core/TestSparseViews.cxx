@@ -165,7 +165,7 @@ TEST(SparseViews, TriangulationAngle)
     image.translation = { 0.1 - 0.1 * i, 0, 0 };
   }
   const std::vector<CalibratedImage> images = CalibratedImages(model);
-  const double degrees[] = { 0.5, 1.9, 2.1, 30 };
+  const double degrees[] = { 1.9, 2.1, 30, 40 };
   for (std::size_t k = 0; k < 4; ++k)
   {
     SparsePoint& point = model.points.emplace_back();
@@ -178,8 +178,9 @@ TEST(SparseViews, TriangulationAngle)
   }
   SparseViewOptions options = NoLimits();
   options.minimumAngle = 2;
-  const std::vector<SparseView> views = ViewsFromModel(model, options);
-  EXPECT_EQ(views.at(0).point, (std::vector<int>{ 2, 3 }));
+  EXPECT_EQ(ViewsFromModel(model, options).at(0).point, (std::vector<int>{ 1, 2, 3 }));
+  options.minimumAngle = 80; // the better half
+  EXPECT_EQ(ViewsFromModel(model, options).at(0).point, (std::vector<int>{ 2, 3 }));
 }
 
 // A known defect of another program: it divided by the depth of such a point.

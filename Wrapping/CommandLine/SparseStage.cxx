@@ -3,6 +3,7 @@
 
 #include "Session.h"
 
+#include <vtkFeatureSupportFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkSparseModelReader.h>
@@ -22,7 +23,14 @@ void SparseStage::AddOptions(CLI::App& command)
     ->group("Structure-from-motion model");
   command
     .add_option("--min-angle", this->MinimumAngle,
-      "The widest angle between two rays to a point must be so large, degrees")
+      "The widest angle between two rays to a point must be so large, degrees; the wider half of "
+      "the points counts anyway")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str()
+    ->group("Structure-from-motion model");
+  command
+    .add_option("--min-support", this->SupportNeighbors,
+      "Of the dozen features about one so many must be about as far away; 0 keeps all")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str()
     ->group("Structure-from-motion model");
@@ -37,7 +45,13 @@ vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
   reader->SetMaximumError(this->MaximumError);
   reader->SetMinimumAngle(this->MinimumAngle);
   session.Run(reader, "sparse");
-  vtkSmartPointer<vtkMultiBlockDataSet> features = reader->GetOutput();
+  vtkNew<vtkFeatureSupportFilter> support;
+  support->SetInputConnection(reader->GetOutputPort());
+  support->SetRadiusInSpacings(2);
+  support->SetDisparityTolerance(0.05);
+  support->SetMinimumNeighbors(this->SupportNeighbors);
+  session.Run(support, "support");
+  vtkSmartPointer<vtkMultiBlockDataSet> features = support->GetOutput();
   session.Tell("sparse: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
     std::to_string(features->GetNumberOfPoints()) + " features");
   return features;

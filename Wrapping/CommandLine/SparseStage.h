@@ -15,7 +15,7 @@ namespace freespace
 
 class Session;
 
-/// Structure-from-motion model -> features: vtkSparseModelReader. Like the other stages (Stages.h).
+/// Structure-from-motion model -> features: vtkSparseModelReader, vtkFeatureSupportFilter. Like the other stages (Stages.h).
 class SparseStage
 {
 public:
@@ -23,9 +23,10 @@ public:
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& model) const;
 
 private:
-  int MinimumTrackLength = 3;
+  int MinimumTrackLength = 2;
   double MaximumError = 4;
-  double MinimumAngle = 1;
+  double MinimumAngle = 5;
+  int SupportNeighbors = 2;
 };
 
 }

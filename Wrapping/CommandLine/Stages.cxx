@@ -11,6 +11,7 @@
 #include <vtkFreespaceUnion.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSurfaceReader.h>
 #include <vtkSurfaceWriter.h>
@@ -19,6 +20,19 @@
 
 namespace freespace
 {
+
+namespace
+{
+
+// Whether features are points of a structure-from-motion model rather than of edges.
+bool AreIsolated(vtkMultiBlockDataSet* features)
+{
+  auto* first =
+    features->GetNumberOfBlocks() > 0 ? vtkPolyData::SafeDownCast(features->GetBlock(0)) : nullptr;
+  return first && first->GetPointData()->HasArray("PointId");
+}
+
+}
 
 void StereoStage::AddOptions(CLI::App& command)
 {
@@ -64,6 +78,13 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str()
     ->group("Disparity maps");
+  command
+    .add_option("--background", this->Background,
+      "Continue the background behind occluding edges: on, off, or auto, which is off for the "
+      "isolated points of a structure-from-motion model")
+    ->check(CLI::IsMember({ "auto", "on", "off" }))
+    ->capture_default_str()
+    ->group("Disparity maps");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
@@ -77,6 +98,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputConnection(support->GetOutputPort());
   maps->SetTolerance(this->Tolerance);
+  maps->SetContinueBackground(
+    this->Background == "on" || (this->Background == "auto" && !AreIsolated(features)));
   session.Run(maps, "triangulate");
   vtkSmartPointer<vtkMultiBlockDataSet> result = maps->GetOutput();
   session.Tell("triangulate: " + std::to_string(result->GetNumberOfPoints()) + " points, " +

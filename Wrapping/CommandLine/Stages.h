@@ -42,6 +42,7 @@ private:
   double SupportRadius = 4;
   int SupportNeighbors = 0;
   double Tolerance = 0.0005;
+  std::string Background = "auto";
 };
 
 /// disparity maps -> surface: vtkFreespaceUnion, vtkBisectionContourFilter.
