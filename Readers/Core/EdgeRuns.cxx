@@ -199,7 +199,7 @@ private:
   // tolerance. Sharp pictures from exact cameras show up a wrong match by a fraction of a pixel.
   double ResidualLimit(const std::vector<std::vector<int>>& runs) const
   {
-    constexpr double factor = 5, least = 0.1; // pixels
+    constexpr double factor = 5, least = 0.2; // pixels
     std::vector<double> residuals;
     for (const std::vector<int>& run : runs)
     {

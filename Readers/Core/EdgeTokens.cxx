@@ -79,13 +79,13 @@ float NoiseScale(float grey)
   return (middle + offset) / (std::max(grey, 0.0f) + offset);
 }
 
-// Vertex of the parabola through the logarithms at -1, 0 and 1, the middle one being the largest.
+// Vertex of the parabola through the slopes at -1, 0 and 1, which are given squared, the middle one
+// being the largest. For a step over square pixels and central differences it is exact.
 float PeakOffset(float before, float peak, float after)
 {
-  const float floor = 0.0025f * peak; // keeps the logarithm of an empty neighbour at bay
-  const float a = std::log(std::max(before, floor) / peak);
-  const float b = std::log(std::max(after, floor) / peak);
-  return a + b < 0 ? 0.5f * (a - b) / (a + b) : 0.0f;
+  const float a = std::sqrt(before), b = std::sqrt(peak), c = std::sqrt(after);
+  const float curvature = a - 2 * b + c;
+  return curvature < 0 ? 0.5f * (a - c) / curvature : 0.0f;
 }
 
 // The points of one row where the slope is greatest across the edge; `index` holds the number of
@@ -283,30 +283,33 @@ public:
     const EdgePoint& center = this->Points[chain[k]];
     EdgeToken token;
     token.contrast = center.contrast;
-    Eigen::Vector2d slope(center.gy, -center.gx);
-    token.position = { center.x, center.y };
-    if (radius > 0)
+    token.position = Eigen::Vector2d::Zero();
+    Eigen::Vector2d along = Eigen::Vector2d::Zero();
+    const std::vector<double>& weights = this->Weights[radius];
+    for (int j = -radius; j <= radius; ++j)
     {
-      const std::vector<double>& weights = this->Weights[radius];
-      Eigen::Vector2d mean = Eigen::Vector2d::Zero(), fitted = Eigen::Vector2d::Zero();
-      for (int j = -radius; j <= radius; ++j)
-      {
-        const int at = k + j;
-        const EdgePoint& p = this->Points[chain[at < 0 ? at + size : at >= size ? at - size : at]];
-        const Eigen::Vector2d position(p.x, p.y);
-        mean += weights[j + radius] * position;
-        fitted += j * position;
-      }
-      token.position = mean;
-      slope = fitted.dot(slope) > 0 ? fitted : slope;
+      const Eigen::Vector2d position = this->Position(chain[(k + j + size) % size]);
+      token.position += weights[j + radius] * position;
+      along += j * position;
     }
+    if (radius < 2) // at an end
+    {
+      const int first = std::clamp(k - 2, 0, std::max(0, size - 5));
+      along = this->Position(chain[std::min(first + 4, size - 1)]) - this->Position(chain[first]);
+    }
+    const Eigen::Vector2d level(center.gy, -center.gx); // across the gradient
     token.position += Eigen::Vector2d(0.5, 0.5);
-    token.tangent = slope.normalized();
+    token.tangent = (along.dot(level) > 0 ? along : level).normalized();
     this->AddColors(token);
     return token;
   }
 
 private:
+  Eigen::Vector2d Position(int point) const
+  {
+    return { this->Points[point].x, this->Points[point].y };
+  }
+
   void AddColors(EdgeToken& token) const
   {
     token.bright.fill(0);

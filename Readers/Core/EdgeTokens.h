@@ -66,8 +66,8 @@ struct EdgeChains
 };
 
 /// Canny's edges with Devernay's sub-pixel correction: the position is the vertex of the parabola
-/// through the logarithms of three gradient magnitudes across the edge (exact for a step under a
-/// Gaussian), refined along the linked chain. The image has 8 bits, one or three channels.
+/// through three gradient magnitudes across the edge, refined along the linked chain. The image has 8
+/// bits, one or three channels.
 EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options);
 
 }

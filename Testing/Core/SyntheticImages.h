@@ -88,11 +88,12 @@ inline Eigen::Vector3d Trace(const Layers& layers, const Eigen::Vector3d& origin
 /// Maps a pixel of the image to the pixel at which a camera without distortion sees the same.
 using PixelMap = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
-/// The picture that a camera takes, each pixel the mean over its area, by 6 x 6 rays.
+/// The picture that a camera takes, each pixel the mean of some rays spread evenly over its area (a
+/// Fibonacci lattice, which favours no direction of an edge).
 inline cv::Mat Render(
-  const Layers& layers, const Camera& camera, const PixelMap& undistort = nullptr)
+  const Layers& layers, const Camera& camera, const PixelMap& undistort = nullptr, int rays = 40)
 {
-  constexpr int rays = 6;
+  constexpr double golden = 0.6180339887498949;
   cv::Mat image(camera.height, camera.width, CV_8UC3);
   const Eigen::Vector3d origin = camera.Center();
   for (int y = 0; y < image.rows; ++y)
@@ -100,14 +101,14 @@ inline cv::Mat Render(
     for (int x = 0; x < image.cols; ++x)
     {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int i = 0; i < rays * rays; ++i)
+      for (int i = 0; i < rays; ++i)
       {
-        const Eigen::Vector2d pixel(x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays);
+        const Eigen::Vector2d pixel(x + (i + 0.5) / rays, y + std::fmod((i + 0.5) * golden, 1.0));
         sum += Trace(layers, origin, camera.Ray(undistort ? undistort(pixel) : pixel));
       }
       for (int c = 0; c < 3; ++c)
       {
-        image.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<std::uint8_t>(sum[c] / (rays * rays));
+        image.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<std::uint8_t>(sum[c] / rays);
       }
     }
   }

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EpipolarPair.h"
+
+#include "CommonVolume.h"
+#include "Error.h"
+#include "SyntheticImages.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace freespace;
+
+namespace
+{
+
+class RandomCameras
+{
+public:
+  explicit RandomCameras(unsigned int seed)
+    : Random(seed)
+  {
+  }
+
+  Camera Next()
+  {
+    return LookAt({ this->Uniform(-0.3, 0.3), this->Uniform(-0.3, 0.3), this->Uniform(-0.1, 0.1) },
+      { this->Uniform(-0.2, 0.2), this->Uniform(-0.2, 0.2), 1 });
+  }
+  double Uniform(double low, double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(this->Random);
+  }
+
+private:
+  std::mt19937 Random;
+};
+
+}
+
+TEST(EpipolarPair, PointsLieOnOneRowAndGiveTheirDisparity)
+{
+  for (unsigned int seed = 0; seed < 50; ++seed)
+  {
+    RandomCameras random(seed);
+    const Camera reference = random.Next(), other = random.Next();
+    const EpipolarPair pair(reference, other);
+    const Eigen::Vector3d point(
+      random.Uniform(-0.2, 0.2), random.Uniform(-0.2, 0.2), random.Uniform(0.7, 1.5));
+    const EpipolarPair::Ray a = pair.FromReference(reference.Project(point));
+    const EpipolarPair::Ray b = pair.FromOther(other.Project(point));
+    EXPECT_GT(a.scale, 0);
+    EXPECT_NEAR(a.v, b.v, 1e-8) << seed;
+    const double disparity = 1 / reference.Depth(point);
+    EXPECT_NEAR(pair.Disparity(a, b.u), disparity, 1e-9) << seed;
+    EXPECT_NEAR(pair.Column(a, disparity), b.u, 1e-6) << seed;
+  }
+}
+
+TEST(EpipolarPair, JacobianIsTheDerivative)
+{
+  RandomCameras random(7);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const Eigen::Vector2d pixel(70, 120);
+  const EpipolarPair::Ray ray = pair.FromReference(pixel);
+  const Eigen::Matrix2d jacobian = pair.ReferenceJacobian(ray);
+  for (int k = 0; k < 2; ++k)
+  {
+    const double step = 1e-4;
+    const EpipolarPair::Ray moved = pair.FromReference(pixel + step * Eigen::Vector2d::Unit(k));
+    EXPECT_NEAR((moved.u - ray.u) / step, jacobian(0, k), 1e-4);
+    EXPECT_NEAR((moved.v - ray.v) / step, jacobian(1, k), 1e-4);
+  }
+}
+
+TEST(EpipolarPair, OnePlace)
+{
+  const Camera camera = CrossOfCameras()[0];
+  EXPECT_THROW(EpipolarPair(camera, camera), Error);
+}
+
+TEST(EpipolarPair, OneStraightBeforeTheOther)
+{
+  Camera other = CrossOfCameras()[0];
+  other.t = Eigen::Vector3d(0, 0, -0.2);
+  const EpipolarPair pair(CrossOfCameras()[0], other); // useless, but no error
+  EXPECT_TRUE(std::isfinite(pair.FromReference({ 10, 10 }).scale));
+}
+
+TEST(CommonVolume, VisibleRangeAgreesWithSampling)
+{
+  int seen = 0;
+  for (unsigned int seed = 0; seed < 60; ++seed)
+  {
+    RandomCameras random(seed);
+    const Camera reference = random.Next(), other = random.Next();
+    const Eigen::Vector2d pixel(random.Uniform(0, 240), random.Uniform(0, 180));
+    const DisparityRange range = VisibleRange(reference, pixel, other, { 0.05, 20 });
+    for (double disparity = 0.06; disparity < 20; disparity *= 1.07)
+    {
+      const Eigen::Vector3d point = reference.Unproject(pixel, 1 / disparity);
+      const bool visible = other.Depth(point) > 0 && other.Sees(other.Project(point));
+      EXPECT_EQ(visible, disparity >= range.minimum && disparity <= range.maximum)
+        << seed << " " << disparity;
+      seen += visible;
+    }
+  }
+  EXPECT_GT(seen, 500);
+}
+
+TEST(CommonVolume, CamerasThatLookApartHaveNone)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Camera ahead = LookAt({ 0, 0, 0 }, { 0, 0, 1 });
+  EXPECT_FALSE(CommonRange(
+    ahead, LookAt({ -0.1, 0, 0 }, { 0, 0, 1 }), LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 0, infinity })
+                 .Empty());
+  EXPECT_TRUE(CommonRange(ahead, LookAt({ -0.1, 0, 0 }, { -1, 0, -1 }),
+    LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 0, infinity })
+                .Empty());
+  EXPECT_TRUE(CommonRange(
+    ahead, LookAt({ -0.1, 0, 0 }, { 0, 0, 1 }), LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 1e4, 1e5 })
+                .Empty()); // too near
+}

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SharedData.h"
+#include "SyntheticImages.h"
+#include "TemporaryFolder.h"
+#include "vtkEdgeStereoReader.h"
+#include "vtkFeatureOverlayWriter.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSMPTools.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace freespace;
+
+namespace
+{
+
+// A scene.json with as many clusters, all of the same three pictures of coloured squares.
+class SquaresScene
+{
+public:
+  explicit SquaresScene(int clusters)
+  {
+    Layer plane;
+    plane.exists = Everywhere();
+    plane.color = RandomSquares(0.06, 5);
+    const std::vector<Camera> cameras = CrossOfCameras();
+    std::filesystem::create_directories(this->Folder.Path("images"));
+    std::ostringstream images;
+    images.precision(17);
+    const char* names[3] = { "c.png", "l.png", "r.png" };
+    for (int i = 0; i < 3; ++i)
+    {
+      cv::imwrite(
+        this->Folder.Path("images/" + std::string(names[i])), Render({ plane }, cameras[i]));
+      const Eigen::Quaterniond q(cameras[i].R);
+      const Eigen::Vector3d& t = cameras[i].t;
+      images << i + 1 << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' '
+             << t.x() << ' ' << t.y() << ' ' << t.z() << " 1 " << names[i] << "\n\n";
+    }
+    this->Folder.Write("sparse/images.txt", images.str());
+    this->Folder.Write("sparse/cameras.txt", "1 PINHOLE 240 180 400 400 121.3 88.6\n");
+    std::string json;
+    for (int i = 0; i < clusters; ++i)
+    {
+      json += std::string(i ? "," : "") + R"({ "name": "cluster)" + std::to_string(i) +
+        R"(", "reference": "c.png", "triplets": [["l.png", "c.png", "r.png"]] })";
+    }
+    this->File = this->Folder.Write(
+      "scene.json", R"({ "images": "images", "model": "sparse", "clusters": [)" + json + "] }");
+  }
+
+  TemporaryFolder Folder;
+  std::string File;
+};
+
+void KeepText(vtkObject*, unsigned long, void* client, void* text)
+{
+  static_cast<std::string*>(client)->append(static_cast<const char*>(text));
+}
+
+// What the reader complains about; empty when it does not.
+std::string Complaint(vtkAlgorithm* algorithm)
+{
+  std::string text;
+  vtkNew<vtkCallbackCommand> keep;
+  keep->SetCallback(KeepText);
+  keep->SetClientData(&text);
+  algorithm->AddObserver(vtkCommand::ErrorEvent, keep);
+  algorithm->Update();
+  algorithm->RemoveObserver(keep);
+  return text;
+}
+
+vtkPolyData* Block(vtkMultiBlockDataSet* blocks, unsigned int index)
+{
+  return vtkPolyData::SafeDownCast(blocks->GetBlock(index));
+}
+
+void ExpectSamePoints(vtkPolyData* a, vtkPolyData* b)
+{
+  ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      ASSERT_EQ(a->GetPoint(i)[c], b->GetPoint(i)[c]);
+    }
+  }
+}
+
+}
+
+TEST(EdgeStereoReader, ArraysAndCells)
+{
+  const SquaresScene scene(1);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  reader->Update();
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 1u);
+  vtkPolyData* block = Block(reader->GetOutput(), 0);
+  const vtkIdType count = block->GetNumberOfPoints();
+  EXPECT_GT(count, 800);
+  EXPECT_EQ(block->GetNumberOfVerts(), count);
+  EXPECT_GT(block->GetNumberOfLines(), 20);
+  const std::pair<const char*, int> arrays[] = { { "ImagePoint", 2 }, { "RGB", 3 },
+    { "EdgeDirection", 3 }, { "MatchingCost", 1 }, { "ChainId", 1 } };
+  for (const auto& [name, components] : arrays)
+  {
+    vtkDataArray* array = block->GetPointData()->GetArray(name);
+    ASSERT_NE(array, nullptr) << name;
+    EXPECT_EQ(array->GetNumberOfComponents(), components) << name;
+    EXPECT_EQ(array->GetNumberOfTuples(), count) << name;
+  }
+}
+
+TEST(EdgeStereoReader, SameForAnyNumberOfThreads)
+{
+  const SquaresScene scene(5);
+  vtkNew<vtkMultiBlockDataSet> first;
+  for (int threads : { 1, 2, 4 })
+  {
+    vtkSMPTools::LocalScope(vtkSMPTools::Config(threads),
+      [&]()
+      {
+        vtkNew<vtkEdgeStereoReader> reader;
+        reader->SetFileName(scene.File);
+        reader->Update();
+        ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 5u);
+        if (threads == 1)
+        {
+          first->DeepCopy(reader->GetOutput());
+        }
+        for (unsigned int i = 0; i < 5; ++i)
+        {
+          ExpectSamePoints(Block(first, i), Block(reader->GetOutput(), i));
+        }
+      });
+  }
+}
+
+TEST(EdgeStereoReader, RunsAgainWhenTheFileChanges)
+{
+  const SquaresScene scene(2);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  reader->Update();
+  const vtkMTimeType before = reader->GetOutput()->GetMTime();
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetMTime(), before);
+  const std::filesystem::path file = scene.File;
+  std::filesystem::last_write_time(
+    file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
+  reader->Update();
+  EXPECT_GT(reader->GetOutput()->GetMTime(), before);
+}
+
+TEST(EdgeStereoReader, AbortLeavesNothing)
+{
+  const SquaresScene scene(3);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
+  reader->AddObserver(vtkCommand::ProgressEvent, abort);
+  EXPECT_EQ(Complaint(reader), "");
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+}
+
+TEST(EdgeStereoReader, BadInputIsToldAndLeavesNothing)
+{
+  const SquaresScene scene(2);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.Folder.Path("other.json"));
+  EXPECT_NE(Complaint(reader).find("other.json"), std::string::npos);
+
+  reader->SetFileName(scene.File);
+  reader->SetTolerance(-1);
+  EXPECT_NE(Complaint(reader).find("tolerance"), std::string::npos);
+  reader->SetTolerance(0.5);
+  EXPECT_EQ(Complaint(reader), "");
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 2u);
+
+  reader->SetMinimumDepth(-1);
+  EXPECT_NE(Complaint(reader).find("depth"), std::string::npos);
+  reader->SetMinimumDepth(0);
+  scene.Folder.Write("images/l.png", "");
+  reader->Modified();
+  EXPECT_NE(Complaint(reader).find("l.png"), std::string::npos);
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+}
+
+TEST(EdgeStereoReader, DepthLimits)
+{
+  const SquaresScene scene(1);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  reader->SetMinimumDepth(0.9);
+  reader->SetMaximumDepth(1.1);
+  reader->Update();
+  EXPECT_GT(Block(reader->GetOutput(), 0)->GetNumberOfPoints(), 800);
+  reader->SetMaximumDepth(0.95); // nothing there
+  EXPECT_NE(Complaint(reader).find("cluster0"), std::string::npos);
+}
+
+TEST(FeatureOverlayWriter, DrawsOnePicturePerView)
+{
+  const SquaresScene scene(2);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  vtkNew<vtkFeatureOverlayWriter> writer;
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->SetImagesFolder(scene.Folder.Path("images"));
+  writer->SetOutputFolder(scene.Folder.Path("new/overlay"));
+  ASSERT_EQ(writer->Write(), 1);
+  for (const char* name : { "new/overlay/cluster0.png", "new/overlay/cluster1.png" })
+  {
+    const cv::Mat picture = cv::imread(scene.Folder.Path(name));
+    ASSERT_EQ(picture.cols, 240) << name;
+    ASSERT_EQ(picture.rows, 180) << name;
+    int bright = 0; // the picture itself is darkened to 0.4 of 220 at most
+    for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel)
+    {
+      bright += std::max({ (*pixel)[0], (*pixel)[1], (*pixel)[2] }) > 100;
+    }
+    EXPECT_GT(bright, 700) << name;
+    EXPECT_LT(bright, 6000) << name;
+  }
+}
+
+TEST(FeatureOverlayWriter, MissingPicture)
+{
+  const SquaresScene scene(1);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  vtkNew<vtkFeatureOverlayWriter> writer;
+  writer->SetInputConnection(reader->GetOutputPort());
+  writer->SetImagesFolder(scene.Folder.Path("elsewhere"));
+  writer->SetOutputFolder(scene.Folder.Path("overlay"));
+  std::string text;
+  vtkNew<vtkCallbackCommand> keep;
+  keep->SetCallback(KeepText);
+  keep->SetClientData(&text);
+  writer->AddObserver(vtkCommand::ErrorEvent, keep);
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_NE(text.find("c.png"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(scene.Folder.Path("overlay/cluster0.png")));
+}
+
+// The blocks scene's figures that need no truth: where they fall, something is broken.
+TEST(EdgeStereoReader, BlocksSceneGivesEnoughFeatures)
+{
+  const std::string scene = SharedData("blocks/scene.json");
+  if (scene.empty())
+  {
+    GTEST_SKIP() << "The blocks scene is not there.";
+  }
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene);
+  reader->Update();
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 6u);
+  for (unsigned int i = 0; i < 6; ++i)
+  {
+    vtkPolyData* block = Block(reader->GetOutput(), i);
+    EXPECT_GT(block->GetNumberOfPoints(), 25000) << i;
+    int onBoard = 0, below = 0; // the board is the plane z = 0
+    for (vtkIdType k = 0; k < block->GetNumberOfPoints(); ++k)
+    {
+      const double z = block->GetPoint(k)[2];
+      onBoard += std::abs(z) < 0.0005;
+      below += z < -0.003;
+    }
+    EXPECT_GT(onBoard, 8000) << i;
+    EXPECT_LT(below, 5) << i;
+  }
+}
