@@ -4,7 +4,9 @@
 #include "AlgorithmProgress.h"
 #include "ContinueBackground.h"
 #include "DelaunayDisparity.h"
+#include "RejectOutliers.h"
 #include "SMPParallelFor.h"
+#include "UntrustedTriangles.h"
 #include "ViewBlocks.h"
 
 #include <vtkMultiBlockDataSet.h>
@@ -24,12 +26,27 @@ int vtkDelaunayDisparityFilter::RequestData(
   freespace::ContinueBackgroundOptions background;
   background.grazingAngle = this->GrazingAngle;
   background.views = this->RefutingViews;
+  freespace::RejectOutliersOptions outliers;
+  outliers.neighbors = this->SupportingNeighbors;
+  outliers.seeThroughViews = this->SeeThroughViews;
+  freespace::UntrustedTrianglesOptions untrusted;
+  untrusted.longestEdge = this->LongestEdge;
+  untrusted.greatestDepth = this->GreatestDepthRatio;
   try
   {
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
-    const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    untrusted.Check();
+    std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    if (this->SupportingNeighbors != 0 || this->SeeThroughViews != 0)
+    {
+      freespace::DelaunayDisparityOptions own = options;
+      own.minimumDisparity = false;
+      const std::vector<freespace::DisparityMap> maps =
+        freespace::TriangulateViews(views, own, freespace::SMPParallelFor, progress.Part(0.0, 0.2));
+      views = freespace::RejectOutliers(views, maps, outliers, freespace::SMPParallelFor);
+    }
     std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-      views, options, freespace::SMPParallelFor, progress.Part(0.0, 0.6));
+      views, options, freespace::SMPParallelFor, progress.Part(0.3, 0.7));
     if (this->ContinueBackground)
     {
       freespace::ContinueBackground(maps, views, background, freespace::SMPParallelFor);
@@ -37,6 +54,7 @@ int vtkDelaunayDisparityFilter::RequestData(
     progress(0.9);
     for (std::size_t i = 0; i < maps.size(); ++i)
     {
+      freespace::RemoveUntrustedTriangles(maps[i], untrusted);
       freespace::SetNamedBlock(
         output, static_cast<unsigned int>(i), maps[i].name, freespace::BlockFromMap(maps[i]));
     }
@@ -62,4 +80,8 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ContinueBackground: " << this->ContinueBackground << "\n";
   os << indent << "GrazingAngle: " << this->GrazingAngle << "\n";
   os << indent << "RefutingViews: " << this->RefutingViews << "\n";
+  os << indent << "SupportingNeighbors: " << this->SupportingNeighbors << "\n";
+  os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
+  os << indent << "LongestEdge: " << this->LongestEdge << "\n";
+  os << indent << "GreatestDepthRatio: " << this->GreatestDepthRatio << "\n";
 }

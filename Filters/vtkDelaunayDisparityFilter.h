@@ -15,11 +15,19 @@
  * where they are in front of the camera and project into the convex hull of the view's own
  * features.
  *
+ * Outliers would spoil every other view, so before anything else features are dropped that fewer
+ * than SupportingNeighbors of the six nearest in their view agree with (end of section 2.2: support
+ * in the image neighbourhood), and, beyond the paper, those that SeeThroughViews other views see
+ * through. A view that would keep fewer than three features keeps all.
+ *
  * Beyond the paper, with ContinueBackground on: where a near edge occludes a far surface the
  * triangulation joins the two by bridges that no surface carries. A bridge, seen at GrazingAngle or
  * more to its normal, through which RefutingViews other views see, has its near corners set back to the surface
  * behind: the one that another view has there, or else the plane of the far features around. Off is
  * the paper.
+ *
+ * Triangles longer than LongestEdge in the image, or than GreatestDepthRatio in depth, can be left
+ * out, so that they carve nothing: for sparse features, among which long triangles are no surface.
  *
  * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader and vtkFeatureSupportFilter make
  * it. Output: the same blocks with triangles. Point data: `ImagePoint` (double x2, pixels) is where
@@ -92,6 +100,42 @@ public:
   vtkGetMacro(RefutingViews, int);
   ///@}
 
+  ///@{
+  /**
+   * How many of the six features that are nearest in the image (within two triangles) must agree with
+   * a feature's disparity. 0 keeps all. Default 2.
+   */
+  vtkSetMacro(SupportingNeighbors, int);
+  vtkGetMacro(SupportingNeighbors, int);
+  ///@}
+
+  ///@{
+  /**
+   * How many other views must see through a feature, and more than see it, for it to be dropped. 0, the
+   * default and the paper, drops none.
+   */
+  vtkSetMacro(SeeThroughViews, int);
+  vtkGetMacro(SeeThroughViews, int);
+  ///@}
+
+  ///@{
+  /**
+   * Triangles with a longer edge in the image, pixels, carve nothing. 0, the default and the paper, is
+   * no limit.
+   */
+  vtkSetMacro(LongestEdge, double);
+  vtkGetMacro(LongestEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * Triangles whose farthest corner is deeper than this many times the nearest carve nothing. Above 1;
+   * 0, the default and the paper, is no limit.
+   */
+  vtkSetMacro(GreatestDepthRatio, double);
+  vtkGetMacro(GreatestDepthRatio, double);
+  ///@}
+
 protected:
   vtkDelaunayDisparityFilter() = default;
   ~vtkDelaunayDisparityFilter() override = default;
@@ -103,6 +147,10 @@ protected:
   vtkTypeBool ContinueBackground = 1;
   double GrazingAngle = 70.0;
   int RefutingViews = 1;
+  int SupportingNeighbors = 2;
+  int SeeThroughViews = 0;
+  double LongestEdge = 0.0;
+  double GreatestDepthRatio = 0.0;
 
 private:
   vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;

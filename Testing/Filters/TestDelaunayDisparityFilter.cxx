@@ -91,6 +91,7 @@ TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)
     filter->SetInputDataObject(Blocks(views));
     filter->SetTolerance(0.002);
     filter->ContinueBackgroundOff();
+    filter->SetSupportingNeighbors(0);
     filter->Update();
     ExpectSameMaps(MapsFromBlocks(filter->GetOutput()), expected);
   }
@@ -103,6 +104,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   filter->SetInputDataObject(Blocks(views));
   filter->MinimumDisparityOff();
   filter->ContinueBackgroundOff();
+  filter->SetSupportingNeighbors(0);
   filter->Update();
   const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
   ASSERT_EQ(maps.size(), views.size());
@@ -113,6 +115,57 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   filter->Print(text);
   EXPECT_NE(text.str().find("MinimumDisparity: 0"), std::string::npos);
   EXPECT_NE(text.str().find("Tolerance: 0.0005"), std::string::npos);
+}
+
+TEST(DelaunayDisparityFilter, OutliersAndUntrustedTrianglesAreLeftOut)
+{
+  std::vector<View> views = MakeViews();
+  for (View& view : views) // a smooth surface, so that neighbours agree
+  {
+    for (std::size_t i = 0; i < view.points.size(); ++i)
+    {
+      view.points[i].z() *= 0.01;
+      view.imagePoints[i] = view.camera.Project(view.points[i]);
+    }
+  }
+  const Eigen::Vector3d outlier = views[1].camera.Unproject({ 500, 500 }, 1.5);
+  views[1].points.push_back(outlier);
+  views[1].imagePoints.emplace_back(500, 500);
+  const auto holdsOutlier = [&outlier](const DisparityMap& map)
+  { return std::find(map.points.begin(), map.points.end(), outlier) != map.points.end(); };
+
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(Blocks(views));
+  filter->SetSupportingNeighbors(0);
+  filter->Update();
+  std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
+  EXPECT_TRUE(holdsOutlier(maps[0]));
+  const std::size_t triangles = maps[3].triangles.size();
+
+  filter->SetSupportingNeighbors(2);
+  filter->Update();
+  for (const DisparityMap& map : MapsFromBlocks(filter->GetOutput()))
+  {
+    EXPECT_FALSE(holdsOutlier(map));
+  }
+  filter->SetSupportingNeighbors(0);
+  filter->SetLongestEdge(40);
+  filter->Update();
+  maps = MapsFromBlocks(filter->GetOutput());
+  EXPECT_LT(maps[3].triangles.size(), triangles);
+  EXPECT_GT(maps[3].triangles.size(), 0u);
+}
+
+TEST(DelaunayDisparityFilter, SettingOutOfRangeIsAnError)
+{
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(Blocks(MakeViews()));
+  filter->SetGreatestDepthRatio(0.5);
+  std::string error;
+  ListenToErrors(filter, &error);
+  filter->Update();
+  EXPECT_NE(error.find("0 or above 1"), std::string::npos) << error;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
 }
 
 TEST(DelaunayDisparityFilter, ErrorNamesTheViewAndLeavesNothing)

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RejectOutliers.h"
+
+#include "Error.h"
+#include "ViewFreespace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace freespace
+{
+
+using Eigen::Vector3d;
+
+namespace
+{
+
+// In units of the noise: features that differ by less agree.
+constexpr double Agreement = 4;
+constexpr double LeastDisagreement = 10;
+
+// In units of what is typical of the view.
+constexpr double Untypical = 5;
+
+// Per point of a map the points that share a triangle with it, each once.
+std::vector<std::vector<int>> NeighborsInMap(const DisparityMap& map)
+{
+  std::vector<std::vector<int>> neighbors(map.points.size());
+  for (const auto& triangle : map.triangles)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      neighbors[triangle[i]].push_back(triangle[(i + 1) % 3]);
+      neighbors[triangle[i]].push_back(triangle[(i + 2) % 3]);
+    }
+  }
+  for (std::vector<int>& ring : neighbors)
+  {
+    std::sort(ring.begin(), ring.end());
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  }
+  return neighbors;
+}
+
+// The points nearest to each in the image, within two triangles.
+std::vector<std::vector<int>> NearestPoints(const DisparityMap& map, std::size_t count)
+{
+  const std::vector<std::vector<int>> neighbors = NeighborsInMap(map);
+  std::vector<std::vector<int>> nearest(map.points.size());
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+  {
+    std::vector<int>& around = nearest[i];
+    around = neighbors[i];
+    for (int neighbor : neighbors[i])
+    {
+      around.insert(around.end(), neighbors[neighbor].begin(), neighbors[neighbor].end());
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    around.erase(std::remove(around.begin(), around.end(), static_cast<int>(i)), around.end());
+    const auto last = around.begin() + std::min(around.size(), count);
+    std::partial_sort(around.begin(), last, around.end(),
+      [&](int a, int b)
+      {
+        return (map.imagePoints[a] - map.imagePoints[i]).squaredNorm() <
+          (map.imagePoints[b] - map.imagePoints[i]).squaredNorm();
+      });
+    around.erase(last, around.end());
+  }
+  return nearest;
+}
+
+// For each point the relative difference in disparity to the last of the neighbours that it needs for
+// its support. Infinite where there are not so many that a surface could join to it.
+std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersOptions& options)
+{
+  const double focalLength = std::sqrt(std::abs(map.camera.K(0, 0) * map.camera.K(1, 1)));
+  const double slope = std::tan(options.steepestAngle * M_PI / 180) / focalLength;
+  const auto nearest = NearestPoints(map, options.nearest);
+  std::vector<double> disparity;
+  for (const Vector3d& point : map.points)
+  {
+    disparity.push_back(1 / map.camera.Depth(point));
+  }
+  std::vector<double> lack(map.points.size(), HUGE_VAL), differences;
+  for (std::size_t i = 0; i < lack.size(); ++i)
+  {
+    differences.clear();
+    for (int other : nearest[i])
+    {
+      const double difference =
+        std::abs(disparity[i] - disparity[other]) / std::max(disparity[i], disparity[other]);
+      const double distance = (map.imagePoints[i] - map.imagePoints[other]).norm();
+      const bool canJoin = difference <= Agreement * options.noise + slope * distance;
+      differences.push_back(canJoin ? difference : HUGE_VAL);
+    }
+    if (static_cast<int>(differences.size()) >= options.neighbors)
+    {
+      std::sort(differences.begin(), differences.end());
+      lack[i] = options.neighbors > 0 ? differences[options.neighbors - 1] : 0.0;
+    }
+  }
+  return lack;
+}
+
+// Per point of a map whether enough of its neighbours agree with it. How well they must agree is
+// learned from the view: where features are sparse, the surface moves on from one to the next.
+std::vector<char> SupportedPoints(const DisparityMap& map, const RejectOutliersOptions& options)
+{
+  const std::vector<double> lack = LackOfSupport(map, options);
+  std::vector<double> sorted = lack;
+  double typical = 0;
+  if (!sorted.empty())
+  {
+    const auto middle = sorted.begin() + sorted.size() / 2;
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    typical = *middle;
+  }
+  const double most = std::max(LeastDisagreement * options.noise, Untypical * typical);
+  std::vector<char> supported(lack.size());
+  std::transform(lack.begin(), lack.end(), supported.begin(),
+    [most](double value) { return std::isfinite(value) && value <= most; });
+  return supported;
+}
+
+// Whether too many other views see through a point.
+bool IsSeenThrough(const Vector3d& point, std::size_t own,
+  const std::vector<std::unique_ptr<ViewFreespace>>& freespaces,
+  const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options)
+{
+  int through = 0, agreeing = 0;
+  for (std::size_t v = 0; v < maps.size(); ++v)
+  {
+    if (v != own)
+    {
+      const ViewFreespace::Sample sample = freespaces[v]->At(point);
+      const double room = Agreement * options.noise * maps[v].camera.Depth(point);
+      through += sample.triangle >= 0 && sample.value > room;
+      agreeing += sample.triangle >= 0 && std::abs(sample.value) <= room;
+    }
+  }
+  return through >= options.seeThroughViews && through > agreeing;
+}
+
+}
+
+void RejectOutliersOptions::Check() const
+{
+  if (!(this->noise > 0) || !std::isfinite(this->noise))
+  {
+    throw Error("The relative noise of the features' depth must be positive.");
+  }
+  if (this->neighbors < 0 || this->nearest < 1 || this->seeThroughViews < 0)
+  {
+    throw Error("The numbers of neighbours and of views that test for outliers are out of range.");
+  }
+  if (!(this->steepestAngle >= 0 && this->steepestAngle < 90))
+  {
+    throw Error("The steepest angle between neighbours must be in [0, 90) degrees.");
+  }
+}
+
+std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
+  const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
+  const ParallelFor& parallelFor)
+{
+  options.Check();
+  std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
+  std::vector<std::vector<char>> supported(maps.size()), accepted(maps.size());
+  const auto forEachView = [&](const auto& body)
+  {
+    parallelFor(maps.size(),
+      [&body](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t v = begin; v < end; ++v)
+        {
+          body(v);
+        }
+      });
+  };
+  forEachView(
+    [&](std::size_t v)
+    {
+      freespaces[v] = std::make_unique<ViewFreespace>(maps[v]);
+      supported[v] = SupportedPoints(maps[v], options);
+    });
+  forEachView(
+    [&](std::size_t v)
+    {
+      // The map has its view's features in their order, but not all of them.
+      accepted[v].assign(views[v].points.size(), 0);
+      std::size_t p = 0;
+      for (std::size_t i = 0; i < views[v].points.size() && p < maps[v].points.size(); ++i)
+      {
+        if (views[v].points[i] == maps[v].points[p])
+        {
+          accepted[v][i] = supported[v][p++] &&
+            (options.seeThroughViews == 0 ||
+              !IsSeenThrough(views[v].points[i], v, freespaces, maps, options));
+        }
+      }
+    });
+  return accepted;
+}
+
+std::vector<View> RejectOutliers(const std::vector<View>& views,
+  const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
+  const ParallelFor& parallelFor)
+{
+  const std::vector<std::vector<char>> accepted =
+    AcceptedFeatures(views, maps, options, parallelFor);
+  std::vector<View> kept = views;
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    if (std::count(accepted[v].begin(), accepted[v].end(), 1) < 3)
+    {
+      continue;
+    }
+    kept[v].points.clear();
+    kept[v].imagePoints.clear();
+    for (std::size_t i = 0; i < views[v].points.size(); ++i)
+    {
+      if (accepted[v][i])
+      {
+        kept[v].points.push_back(views[v].points[i]);
+        kept[v].imagePoints.push_back(views[v].imagePoints[i]);
+      }
+    }
+  }
+  return kept;
+}
+
+}
