@@ -91,6 +91,10 @@ class TestStages(WithFolder):
             self.succeed('contour', 'maps.vtm', '-o', f'mesh.{ending}', '--cells', 24)
             self.succeed('render', f'mesh.{ending}', '-o', f'{ending}.png')
 
+    def test_overlay(self):
+        self.succeed('stereo', self.small_scene(), '-o', 'features.vtm', '--overlay', 'pictures')
+        self.assertEqual(os.listdir(self.folder / 'pictures'), ['cluster1.png'])
+
     def test_quiet_and_log(self):
         scene = self.small_scene()
         self.assertEqual(self.succeed('--quiet', 'stereo', scene, '-o', 'features.vtm').stderr, '')

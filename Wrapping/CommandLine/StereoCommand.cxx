@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "Scene.h"
 #include "Session.h"
 #include "Stages.h"
 
+#include <vtkFeatureOverlayWriter.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 
 #include <memory>
 
@@ -18,8 +21,24 @@ struct Settings
 {
   std::string scene;
   std::string output;
+  std::string overlay;
   StereoStage stereo;
 };
+
+void FindFeatures(Session& session, const Settings& settings)
+{
+  const auto features = settings.stereo.Run(session, settings.scene);
+  WriteViews(session, features, settings.output);
+  if (!settings.overlay.empty())
+  {
+    vtkNew<vtkFeatureOverlayWriter> overlay;
+    overlay->SetInputDataObject(features);
+    overlay->SetImagesFolder(ReadScene(settings.scene).ImagesFolder());
+    overlay->SetOutputFolder(settings.overlay);
+    session.Write(overlay);
+    session.Tell("wrote the pictures in " + settings.overlay);
+  }
+}
 
 }
 
@@ -34,10 +53,13 @@ void AddStereoCommand(CLI::App& program, Session& session)
   command->add_option("-o,--output", settings->output, "The features to write")
     ->required()
     ->type_name("FEATURES.vtm");
+  command
+    ->add_option("--overlay", settings->overlay,
+      "Write each reference picture with its features over it, coloured by disparity")
+    ->type_name("FOLDER");
   settings->stereo.AddOptions(*command);
-  command->footer("Example:\n  freespace stereo scene.json -o features.vtm");
-  command->callback([settings, &session]()
-    { WriteViews(session, settings->stereo.Run(session, settings->scene), settings->output); });
+  command->footer("Example:\n  freespace stereo scene.json -o features.vtm --overlay pictures");
+  command->callback([settings, &session]() { FindFeatures(session, *settings); });
 }
 
 }
