@@ -6,6 +6,8 @@
 
 #include <vtkObjectFactory.h>
 
+#include <filesystem>
+
 vtkStandardNewMacro(vtkClusterProposal);
 
 struct vtkClusterProposal::Result
@@ -32,14 +34,23 @@ int vtkClusterProposal::Propose()
   *this->Chosen = {};
   try
   {
-    freespace::Scene scene = freespace::ReadScene(this->FileName);
+    freespace::Scene scene;
+    if (this->FileName.empty())
+    {
+      scene.model = std::filesystem::absolute(this->Model).string();
+      scene.images = this->Images.empty() ? "" : std::filesystem::absolute(this->Images).string();
+    }
+    else
+    {
+      scene = freespace::ReadScene(this->FileName);
+    }
     scene.clusters.clear();
     const freespace::SparseModel model =
       freespace::WithExistingPhotographs(scene, freespace::ReadSceneModel(scene));
     const auto proposal = freespace::ProposeClusters(model, options);
     if (proposal.empty())
     {
-      throw freespace::Error("No clusters for " + this->FileName +
+      throw freespace::Error("No clusters for " + scene.ModelFolder() +
         ": no photograph has neighbours on opposite sides at angles from " +
         std::to_string(this->MinimumAngle) + " to " + std::to_string(this->MaximumAngle) +
         " degrees that see the same.");
@@ -90,6 +101,11 @@ int vtkClusterProposal::WriteScene(const std::string& fileName)
     {
       throw freespace::Error("Cannot write " + fileName + ": no clusters were chosen.");
     }
+    if (this->Chosen->scene.images.empty())
+    {
+      throw freespace::Error(
+        "Cannot write " + fileName + ": the folder of the photographs was not given.");
+    }
     freespace::WriteScene(this->Chosen->scene, fileName);
   }
   catch (const std::exception& error)
@@ -104,6 +120,8 @@ void vtkClusterProposal::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "Model: " << this->Model << "\n";
+  os << indent << "Images: " << this->Images << "\n";
   os << indent << "PreferredAngle: " << this->PreferredAngle << "\n";
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
   os << indent << "MaximumAngle: " << this->MaximumAngle << "\n";

@@ -45,6 +45,17 @@ public:
 
   ///@{
   /**
+   * Instead of a scene.json: the folder or file of a camera model, as vtkSparseModelReader reads it, and
+   * the folder of its photographs. FileName must then be empty.
+   */
+  vtkSetMacro(Model, std::string);
+  vtkGetMacro(Model, std::string);
+  vtkSetMacro(Images, std::string);
+  vtkGetMacro(Images, std::string);
+  ///@}
+
+  ///@{
+  /**
    * The best angle between the reference and a neighbour, in degrees. Default 5.
    */
   vtkSetMacro(PreferredAngle, double);
@@ -104,7 +115,7 @@ public:
   std::string GetText();
 
   /**
-   * Write the scene with the clusters that Propose() chose. Returns 1, or 0 after an error.
+   * Write a scene.json with the clusters that Propose() chose. Returns 1, or 0 after an error.
    */
   int WriteScene(const std::string& fileName);
 
@@ -113,6 +124,8 @@ protected:
   ~vtkClusterProposal() override;
 
   std::string FileName;
+  std::string Model;
+  std::string Images;
   double PreferredAngle = 5.0;
   double MinimumAngle = 1.0;
   double MaximumAngle = 20.0;

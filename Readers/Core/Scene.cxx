@@ -2,8 +2,8 @@
 #include "Scene.h"
 
 #include "AtomicOutput.h"
-#include "ColmapModel.h"
 #include "Error.h"
+#include "ReadSparseModel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -354,7 +354,7 @@ void WriteScene(const Scene& scene, const std::string& file)
 
 SparseModel ReadSceneModel(const Scene& scene)
 {
-  SparseModel model = ReadColmapModel(scene.ModelFolder());
+  SparseModel model = ReadSparseModel(scene.ModelFolder());
   std::unordered_set<std::string> known;
   for (const SparseImage& image : model.images)
   {

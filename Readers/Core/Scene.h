@@ -76,7 +76,7 @@ Scene ReadScene(const std::string& file);
 /// are made relative to the new file. Throws Error when the file cannot be written.
 void WriteScene(const Scene& scene, const std::string& file);
 
-/// Reads the scene's camera model. Throws Error when that fails (see ReadColmapModel) or when a
+/// Reads the scene's camera model. Throws Error when that fails (see ReadSparseModel) or when a
 /// cluster names an image that the model does not have.
 SparseModel ReadSceneModel(const Scene& scene);
 

@@ -140,3 +140,34 @@ TEST(FeatureCloud, CollinearPoints)
   FeatureCloud(views).VisitSeen(camera, [&](const FeatureCloud::Feature&) { ++visited; });
   EXPECT_EQ(visited, 5000u);
 }
+
+// What a view visits does not grow with the number of views: twice the flight, the same work per view.
+TEST(FeatureCloud, WorkPerViewIsThatOfItsSurroundings)
+{
+  std::vector<double> visitedPerView;
+  for (const int count : { 100, 200, 400 })
+  {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-2, 2);
+    std::vector<View> views(count);
+    for (int v = 0; v < count; ++v)
+    {
+      views[v].camera.K << 100, 0, 100, 0, 100, 100, 0, 0, 1;
+      views[v].camera.width = views[v].camera.height = 200;
+      views[v].camera.t = { -1.0 * v, 0, 2 };
+      for (int i = 0; i < 1000; ++i)
+      {
+        views[v].points.push_back({ v + place(random), place(random), 0.1 * place(random) });
+      }
+    }
+    const FeatureCloud cloud(views);
+    std::size_t visited = 0;
+    for (const View& view : views)
+    {
+      cloud.VisitSeen(view.camera, [&](const FeatureCloud::Feature&) { ++visited; });
+    }
+    visitedPerView.push_back(static_cast<double>(visited) / count);
+  }
+  EXPECT_LT(visitedPerView[1], 1.1 * visitedPerView[0]);
+  EXPECT_LT(visitedPerView[2], 1.1 * visitedPerView[0]);
+}

@@ -32,6 +32,28 @@ TEST(ClusterProposal, SavedAndReadAgain)
   EXPECT_EQ(ReadSceneImages(scene).size(), 30u) << "the relative folders still hold";
 }
 
+TEST(ClusterProposal, OfAModelWithoutAScene)
+{
+  const std::string data = SharedData("charuco");
+  if (data.empty())
+  {
+    GTEST_SKIP() << "no shared data";
+  }
+  vtkObject::GlobalWarningDisplayOff();
+  vtkNew<vtkClusterProposal> proposal;
+  proposal->SetModel(data + "/sparse");
+  ASSERT_EQ(proposal->Propose(), 1);
+  EXPECT_EQ(proposal->GetNumberOfClusters(), 3);
+  TemporaryFolder folder;
+  EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0) << "where are the photographs?";
+  proposal->SetImages(data + "/images");
+  ASSERT_EQ(proposal->Propose(), 1);
+  ASSERT_EQ(proposal->WriteScene(folder.Path("scene.json")), 1);
+  const Scene scene = ReadScene(folder.Path("scene.json"));
+  EXPECT_EQ(scene.clusters.size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(scene.ImagePath("cluster1_c.jpg")));
+}
+
 TEST(ClusterProposal, BadInput)
 {
   vtkObject::GlobalWarningDisplayOff();

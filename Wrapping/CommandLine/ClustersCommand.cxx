@@ -5,6 +5,7 @@
 
 #include <vtkClusterProposal.h>
 #include <vtkNew.h>
+#include <vtkSparseModelReader.h>
 
 #include <iostream>
 #include <memory>
@@ -18,6 +19,7 @@ namespace
 struct Settings
 {
   std::string scene;
+  std::string images;
   std::string output;
   double preferredAngle = 5;
   double minimumOverlap = 0.4;
@@ -26,9 +28,12 @@ struct Settings
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
-  command.add_option("scene", settings.scene, "The scene.json")
+  command.add_option("scene", settings.scene, "The scene.json, or a structure-from-motion model")
     ->required()
-    ->type_name("SCENE.json");
+    ->type_name("SCENE.json|MODEL");
+  command.add_option("--images", settings.images, "The folder of a model's photographs")
+    ->check(CLI::ExistingDirectory)
+    ->type_name("IMAGES");
   command.add_option("-o,--output", settings.output, "Write the scene with these clusters")
     ->type_name("OUT.json");
   command.add_option("--angle", settings.preferredAngle, "Best angle between neighbours, degrees")
@@ -49,7 +54,15 @@ void AddOptions(CLI::App& command, Settings& settings)
 void ProposeClusters(Session& session, const Settings& settings)
 {
   vtkNew<vtkClusterProposal> proposal;
-  proposal->SetFileName(settings.scene);
+  if (vtkSparseModelReader::CanReadFile(settings.scene))
+  {
+    proposal->SetModel(settings.scene);
+    proposal->SetImages(settings.images);
+  }
+  else
+  {
+    proposal->SetFileName(settings.scene);
+  }
   proposal->SetPreferredAngle(settings.preferredAngle);
   proposal->SetMinimumOverlap(settings.minimumOverlap);
   proposal->SetSeparation(settings.separation);
@@ -71,7 +84,8 @@ void AddClustersCommand(CLI::App& program, Session& session)
   CLI::App* command =
     program.add_subcommand("clusters", "Choose the clusters of images, print and save the choice");
   AddOptions(*command, *settings);
-  command->footer("Example:\n  freespace clusters scene.json -o scene-with-clusters.json");
+  command->footer("Example:\n  freespace clusters scene.json -o scene-with-clusters.json\n"
+                  "  freespace clusters colmap/sparse/0 --images colmap/images -o scene.json");
   command->callback([settings, &session]() { ProposeClusters(session, *settings); });
 }
 

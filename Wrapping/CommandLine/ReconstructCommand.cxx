@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "DensifyStage.h"
+#include "Error.h"
 #include "Picture.h"
 #include "Session.h"
 #include "SparseStage.h"
@@ -25,6 +27,7 @@ struct Settings
   std::string picture;
   StereoStage stereo;
   SparseStage sparse;
+  DensifyStage densify;
   TriangulateStage triangulate;
   ContourStage contour;
 };
@@ -44,16 +47,32 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("OUT.png");
   settings.stereo.AddOptions(command);
   settings.sparse.AddOptions(command);
+  settings.densify.AddOptions(command);
   settings.triangulate.AddOptions(command);
   settings.contour.AddOptions(command);
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Settings& settings)
+{
+  if (vtkSparseModelReader::CanReadFile(settings.scene))
+  {
+    const auto features = settings.sparse.Run(session, settings.scene);
+    return settings.densify.IsWanted()
+      ? settings.densify.Run(session, settings.scene, features, settings.stereo)
+      : features;
+  }
+  if (settings.densify.IsWanted())
+  {
+    throw Error("--densify is for a structure-from-motion model, and " + settings.scene +
+      " is none: the features of a scene.json come from its photographs anyway.");
+  }
+  return settings.stereo.Run(session, settings.scene);
 }
 
 void Reconstruct(Session& session, const Settings& settings)
 {
   CheckSurfaceName(settings.output);
-  const auto features = vtkSparseModelReader::CanReadFile(settings.scene)
-    ? settings.sparse.Run(session, settings.scene)
-    : settings.stereo.Run(session, settings.scene);
+  const auto features = FindFeatures(session, settings);
   const auto maps = settings.triangulate.Run(session, features);
   const auto surface = settings.contour.Run(session, maps);
   WriteSurface(session, surface, settings.output);

@@ -27,9 +27,15 @@ namespace
 // Whether features are points of a structure-from-motion model rather than of edges.
 bool AreIsolated(vtkMultiBlockDataSet* features)
 {
-  auto* first =
-    features->GetNumberOfBlocks() > 0 ? vtkPolyData::SafeDownCast(features->GetBlock(0)) : nullptr;
-  return first && first->GetPointData()->HasArray("PointId");
+  for (unsigned int i = 0; i < features->GetNumberOfBlocks(); ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(features->GetBlock(i));
+    if (!view || !view->GetPointData()->HasArray("PointId"))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 }

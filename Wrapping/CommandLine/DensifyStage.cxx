@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DensifyStage.h"
+
+#include "Error.h"
+#include "Session.h"
+#include "Stages.h"
+
+#include <vtkClusterProposal.h>
+#include <vtkMergeViewsFilter.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+
+#include <filesystem>
+
+#include <stdlib.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+// A folder for the scene.json that stands between the choice of clusters and the stereo.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+  {
+    std::string pattern =
+      (std::filesystem::temp_directory_path() / "freespace-densify-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+    {
+      throw Error("Cannot write to " + std::filesystem::temp_directory_path().string() + ".");
+    }
+    this->Folder = pattern;
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->Folder, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string Scene() const { return (this->Folder / "scene.json").string(); }
+
+private:
+  std::filesystem::path Folder;
+};
+
+}
+
+void DensifyStage::AddOptions(CLI::App& command)
+{
+  command
+    .add_option("--densify", this->Images,
+      "The folder of the model's photographs: add what edge stereo finds in them")
+    ->check(CLI::ExistingDirectory)
+    ->type_name("IMAGES")
+    ->group("Structure-from-motion model");
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const std::string& model,
+  vtkMultiBlockDataSet* sparse, const StereoStage& stereo) const
+{
+  const ScratchFolder scratch;
+  vtkNew<vtkClusterProposal> proposal;
+  proposal->SetModel(model);
+  proposal->SetImages(this->Images);
+  proposal->Propose();
+  try
+  {
+    session.ThrowIfFailed();
+  }
+  catch (const Error& error)
+  {
+    // The model and the folder have been read before: its photographs do not suit.
+    session.Tell(std::string("densify: nothing is added. ") + error.what());
+    return sparse;
+  }
+  proposal->WriteScene(scratch.Scene());
+  session.ThrowIfFailed();
+  const auto edges = stereo.Run(session, scratch.Scene());
+  vtkNew<vtkMergeViewsFilter> merge;
+  merge->AddInputDataObject(sparse);
+  merge->AddInputDataObject(edges);
+  session.Run(merge, "merge");
+  vtkSmartPointer<vtkMultiBlockDataSet> features = merge->GetOutput();
+  session.Tell("densify: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
+    std::to_string(features->GetNumberOfPoints()) + " features");
+  return features;
+}
+
+}
