@@ -22,6 +22,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkBisectionContourFilter);
 
@@ -40,6 +41,16 @@ public:
   bool IsFree(const Eigen::Vector3d& point, const freespace::FieldScope&) const override
   {
     return this->Function->FunctionValue(point.data()) > 0;
+  }
+
+  freespace::SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d&,
+    const freespace::FieldScope&) const override
+  {
+    freespace::SurfaceLabel label;
+    this->Function->FunctionGradient(free.data(), label.normal.data());
+    const double length = label.normal.norm();
+    label.normal = length > 0 ? Eigen::Vector3d(label.normal / length) : Eigen::Vector3d(0, 0, 0);
+    return label;
   }
 
 private:
@@ -94,6 +105,47 @@ freespace::ContourArrays AllocateOutput(
   return arrays;
 }
 
+/// Drops all triangles but those of feature triangles, and the points that only they had.
+void KeepObserved(vtkPolyData* surface)
+{
+  auto* kinds = vtkUnsignedCharArray::SafeDownCast(surface->GetCellData()->GetArray("Kind"));
+  auto* views = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("View"));
+  vtkNew<vtkPoints> points;
+  points->SetDataType(surface->GetPoints()->GetDataType());
+  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkIntArray> view;
+  view->SetName("View");
+  vtkNew<vtkUnsignedCharArray> kind;
+  kind->SetName("Kind");
+  std::vector<vtkIdType> newId(surface->GetNumberOfPoints(), -1);
+  vtkCellArray* all = surface->GetPolys();
+  for (vtkIdType t = 0; t < all->GetNumberOfCells(); ++t)
+  {
+    if (kinds->GetValue(t) != static_cast<unsigned char>(freespace::SurfaceKind::Feature))
+    {
+      continue;
+    }
+    vtkIdType size;
+    const vtkIdType* corners;
+    vtkIdType ids[3];
+    all->GetCellAtId(t, size, corners);
+    for (int i = 0; i < 3; ++i)
+    {
+      vtkIdType& id = newId[corners[i]];
+      id = id < 0 ? points->InsertNextPoint(surface->GetPoint(corners[i])) : id;
+      ids[i] = id;
+    }
+    triangles->InsertNextCell(3, ids);
+    view->InsertNextValue(views->GetValue(t));
+    kind->InsertNextValue(kinds->GetValue(t));
+  }
+  surface->Initialize();
+  surface->SetPoints(points);
+  surface->SetPolys(triangles);
+  surface->GetCellData()->AddArray(view);
+  surface->GetCellData()->AddArray(kind);
+}
+
 }
 
 vtkBisectionContourFilter::vtkBisectionContourFilter()
@@ -126,7 +178,7 @@ vtkMTimeType vtkBisectionContourFilter::GetMTime()
 int vtkBisectionContourFilter::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  outputVector->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+  outputVector->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), this->SharpEdges ? 0 : 1);
   return 1;
 }
 
@@ -144,7 +196,11 @@ int vtkBisectionContourFilter::RequestData(
   options.cells = this->Cells;
   options.tolerance = this->Tolerance;
   options.clearance = this->Clearance;
-  if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
+  options.exact = this->ExactCrossings;
+  options.sharp = this->SharpEdges;
+  options.sharpAngle = this->SharpAngle;
+  if (!this->SharpEdges &&
+    information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
   {
     options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
     options.pieces = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
@@ -182,6 +238,10 @@ int vtkBisectionContourFilter::RequestData(
     { return AllocateOutput(output, points, triangles, isSingle, direct); };
     freespace::BisectionContour(field, bounds, options, allocate,
       freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
+    if (this->ObservedOnly && direct)
+    {
+      KeepObserved(output);
+    }
   }
   catch (const freespace::Aborted&)
   {
@@ -209,4 +269,8 @@ void vtkBisectionContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Cells: " << this->Cells << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Clearance: " << this->Clearance << "\n";
+  os << indent << "ExactCrossings: " << this->ExactCrossings << "\n";
+  os << indent << "SharpEdges: " << this->SharpEdges << "\n";
+  os << indent << "SharpAngle: " << this->SharpAngle << "\n";
+  os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
 }

@@ -83,6 +83,41 @@ public:
   vtkGetMacro(Clearance, double);
   ///@}
 
+  ///@{
+  /**
+   * Take crossings exactly where the function knows them, as a vtkFreespaceUnion with MinimumViews 1
+   * does: faster than bisection, and without its tolerance. Default on.
+   */
+  vtkSetMacro(ExactCrossings, bool);
+  vtkGetMacro(ExactCrossings, bool);
+  vtkBooleanMacro(ExactCrossings, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Rebuild sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
+   * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The
+   * surface stays closed, 2-manifold and free of self-intersection. It is then made whole, not in
+   * pieces. Default off, 30 degrees.
+   */
+  vtkSetMacro(SharpEdges, bool);
+  vtkGetMacro(SharpEdges, bool);
+  vtkBooleanMacro(SharpEdges, bool);
+  vtkSetMacro(SharpAngle, double);
+  vtkGetMacro(SharpAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Keep only what was seen: the triangles of Kind 0. That leaves an open surface without the hull and
+   * the walls, among them the "extra" elements of the paper's figure 11. For a vtkFreespaceUnion only.
+   * Default off.
+   */
+  vtkSetMacro(ObservedOnly, bool);
+  vtkGetMacro(ObservedOnly, bool);
+  vtkBooleanMacro(ObservedOnly, bool);
+  ///@}
+
   /**
    * Covers the function.
    */
@@ -100,6 +135,10 @@ protected:
   int Cells = 256;
   double Tolerance = 1e-3;
   double Clearance = 0.01;
+  bool ExactCrossings = true;
+  bool SharpEdges = false;
+  double SharpAngle = 30.0;
+  bool ObservedOnly = false;
 
 private:
   vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;

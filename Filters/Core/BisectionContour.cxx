@@ -4,12 +4,14 @@
 #include "ContourBlock.h"
 #include "CubeCases.h"
 #include "Error.h"
+#include "SharpFeature.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 
 namespace freespace
@@ -34,6 +36,15 @@ void ContourOptions::Check() const
   {
     throw Error("The clearance of vertices is " + std::to_string(this->clearance) +
       " cells, it must be above 0 and at most 0.25.");
+  }
+  if (!(this->sharpAngle > 0 && this->sharpAngle < 180))
+  {
+    throw Error("The sharp angle is " + std::to_string(this->sharpAngle) +
+      " degrees, it must be between 0 and 180.");
+  }
+  if (this->sharp && this->pieces > 1)
+  {
+    throw Error("A contour with sharp edges cannot be made in pieces.");
   }
   if (this->pieces < 1 || this->piece < 0 || this->piece >= this->pieces)
   {
@@ -67,6 +78,13 @@ struct Region
   std::vector<ContourBlock> blocks;
 };
 
+/// A vertex within a cell, about which the cell's triangles are a fan.
+struct SharpVertex
+{
+  std::size_t cell; ///< place in the block's cells
+  Vector3d position;
+};
+
 /// Where a block's vertices and triangles come in the mesh.
 struct BlockPlace
 {
@@ -74,6 +92,7 @@ struct BlockPlace
   bool isOwn;
   std::int32_t firstVertex;
   std::size_t firstTriangle;
+  std::vector<SharpVertex> sharp;   ///< in the order of their cells, after the block's own vertices
   std::vector<std::int32_t> vertex; ///< of another piece's block: place in the mesh, or -1
 };
 
@@ -111,7 +130,7 @@ public:
     : Field(field, bounds)
     , Lattice(bounds, options.cells)
     , Options(options)
-    , Crossing{ options.tolerance, options.clearance, options.exact }
+    , Crossing{ options.tolerance, options.clearance, options.exact, options.sharp }
   {
   }
 
@@ -135,9 +154,14 @@ public:
         });
     }
     progress(0.9);
-    this->PlaceBlocks();
+    this->PlaceBlocks(parallelFor);
     progress(0.95);
-    this->Write(allocate(this->Vertices, this->Triangles), parallelFor);
+    const ContourArrays arrays = allocate(this->Vertices, this->Triangles);
+    this->Write(arrays, parallelFor);
+    if (this->Options.sharp)
+    {
+      this->FlipToSharpEdges(arrays);
+    }
     progress(1.0);
   }
 
@@ -203,24 +227,101 @@ private:
     region.scope = {};
   }
 
-  void PlaceBlocks()
+  void PlaceBlocks(const ParallelFor& parallelFor)
   {
     for (const Region& region : this->Regions)
     {
       for (const ContourBlock& block : region.blocks)
       {
         this->Index[PlaceKey(block.at)] = this->Places.size();
-        this->Places.push_back(
-          { &block, region.isOwn, static_cast<std::int32_t>(this->Vertices), this->Triangles, {} });
-        this->Vertices += region.isOwn ? block.keys.size() : 0;
-        this->Triangles += region.isOwn ? block.NumberOfTriangles() : 0;
-        this->CheckSize();
+        this->Places.push_back({ &block, region.isOwn, 0, 0, {}, {} });
       }
+    }
+    if (this->Options.sharp)
+    {
+      parallelFor(this->Places.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            this->FindSharpVertices(this->Places[i]);
+          }
+        });
+    }
+    for (BlockPlace& place : this->Places)
+    {
+      place.firstVertex = static_cast<std::int32_t>(this->Vertices);
+      place.firstTriangle = this->Triangles;
+      if (place.isOwn)
+      {
+        // A fan about a vertex of its own has two triangles more.
+        this->Vertices += place.block->keys.size() + place.sharp.size();
+        this->Triangles += place.block->NumberOfTriangles() + 2 * place.sharp.size();
+      }
+      this->CheckSize();
     }
     for (std::size_t i = 0; i < this->Places.size() && this->Options.pieces > 1; ++i)
     {
       this->CountForeign(this->Places[i]);
     }
+  }
+
+  /// Gives the block's cells that have a sharp edge or corner a vertex there.
+  void FindSharpVertices(BlockPlace& place) const
+  {
+    const ContourBlock& block = *place.block;
+    const double sharpCosine = std::cos(this->Options.sharpAngle * M_PI / 180.0);
+    std::vector<SurfacePlane> planes;
+    for (std::size_t c = 0; c < block.cells.size(); ++c)
+    {
+      const auto& loops = CubeCases::Get().Loops(block.cases[c]);
+      if (loops.size() != 1)
+      {
+        continue;
+      }
+      planes.clear();
+      const LatticeIndex cell = CellOf(block.cells[c]);
+      for (int edge : loops[0])
+      {
+        BlockPlace* owner = nullptr;
+        const std::size_t vertex =
+          this->FindVertex(place, FirstPoint(cell, edge), edge >> 2, owner);
+        if (vertex != Missing)
+        {
+          planes.push_back({ owner->block->Position(this->Lattice, vertex),
+            owner->block->normals[vertex].cast<double>() });
+        }
+      }
+      const Vector3d low = this->CellCorner(block, cell);
+      const double room = SharpClearance * this->Lattice.spacing;
+      const AlignedBox3d inner(
+        low + Vector3d::Constant(room), low + Vector3d::Constant(this->Lattice.spacing - room));
+      Vector3d position;
+      if (planes.size() == loops[0].size() &&
+        FindSharpFeature(planes, sharpCosine, inner, position))
+      {
+        place.sharp.push_back({ c, position });
+      }
+    }
+  }
+
+  static LatticeIndex CellOf(int cell)
+  {
+    const int size = ContourBlock::Size;
+    return { cell % size, cell / size % size, cell / (size * size) };
+  }
+
+  static LatticeIndex FirstPoint(const LatticeIndex& cell, int edge)
+  {
+    const int begin = CubeCases::Begin(edge);
+    return { cell[0] + (begin & 1), cell[1] + (begin >> 1 & 1), cell[2] + (begin >> 2 & 1) };
+  }
+
+  Vector3d CellCorner(const ContourBlock& block, const LatticeIndex& cell) const
+  {
+    const int size = ContourBlock::Size;
+    return this->Lattice.Point(
+      size * block.at[0] + cell[0], size * block.at[1] + cell[1], size * block.at[2] + cell[2]);
   }
 
   void CheckSize() const
@@ -238,48 +339,62 @@ private:
     {
       return;
     }
-    this->ForEachCorner(*own.block,
-      [&](std::size_t, int, const LatticeIndex& point, int axis)
+    ForEachTriangle(own,
+      [&](std::size_t, const std::array<Corner, 3>& corners, std::size_t, auto)
       {
-        BlockPlace* owner = nullptr;
-        const std::size_t vertex = this->FindVertex(own, point, axis, owner);
-        if (vertex != Missing && !owner->isOwn)
+        for (const Corner& corner : corners)
         {
-          owner->vertex.resize(owner->block->keys.size(), -1);
-          if (owner->vertex[vertex] < 0)
+          BlockPlace* owner = nullptr;
+          const std::size_t vertex = this->FindVertex(own, corner.point, corner.axis, owner);
+          if (vertex != Missing && !owner->isOwn)
           {
-            owner->vertex[vertex] = static_cast<std::int32_t>(this->Vertices++);
-            this->CheckSize();
+            owner->vertex.resize(owner->block->keys.size(), -1);
+            if (owner->vertex[vertex] < 0)
+            {
+              owner->vertex[vertex] = static_cast<std::int32_t>(this->Vertices++);
+              this->CheckSize();
+            }
           }
         }
       });
   }
 
-  /// Calls visit(triangle, corner, first point of the lattice edge from the block's, its axis).
+  /// A corner of a triangle: on a lattice edge, from a point up an axis, or the cell's sharp vertex.
+  struct Corner
+  {
+    LatticeIndex point;
+    int axis;
+    std::ptrdiff_t sharp; ///< place in the block's list, or -1
+  };
+
+  /// Calls visit(triangle, its three corners, place of its cell, its two last cube edges) for all
+  /// triangles of a block. In the fan about a sharp vertex, this is the first corner.
   template <typename Visit>
-  static void ForEachCorner(const ContourBlock& block, Visit&& visit)
+  static void ForEachTriangle(const BlockPlace& place, Visit&& visit)
   {
     const CubeCases& cases = CubeCases::Get();
-    std::size_t triangle = 0;
+    const ContourBlock& block = *place.block;
+    std::size_t triangle = 0, sharp = 0;
     for (std::size_t c = 0; c < block.cells.size(); ++c)
     {
-      const int cell = block.cells[c], size = ContourBlock::Size;
-      const LatticeIndex at = { cell % size, cell / size % size, cell / (size * size) };
+      const LatticeIndex cell = CellOf(block.cells[c]);
+      const auto corner = [&cell](int edge) {
+        return Corner{ FirstPoint(cell, edge), edge >> 2, -1 };
+      };
+      const bool isSharp = sharp < place.sharp.size() && place.sharp[sharp].cell == c;
       for (const CubeCases::Loop& loop : cases.Loops(block.cases[c]))
       {
-        for (std::size_t n = 2; n < loop.size(); ++n, ++triangle)
+        const std::size_t size = loop.size();
+        const Corner apex =
+          isSharp ? Corner{ cell, 0, static_cast<std::ptrdiff_t>(sharp) } : corner(loop[0]);
+        for (std::size_t n = isSharp ? 0 : 2; n < size; ++n, ++triangle)
         {
-          int corner = 0;
-          for (int edge : { loop[0], loop[n - 1], loop[n] })
-          {
-            const int begin = CubeCases::Begin(edge);
-            visit(triangle, corner++,
-              LatticeIndex{
-                at[0] + (begin & 1), at[1] + (begin >> 1 & 1), at[2] + (begin >> 2 & 1) },
-              edge >> 2);
-          }
+          const int from = loop[n > 0 ? n - 1 : size - 1], to = loop[n];
+          visit(triangle, std::array<Corner, 3>{ apex, corner(from), corner(to) }, c,
+            std::make_pair(from, to));
         }
       }
+      sharp += isSharp;
     }
   }
 
@@ -333,23 +448,32 @@ private:
 
   void WritePoints(const BlockPlace& place, const ContourArrays& arrays) const
   {
-    for (std::size_t v = 0; v < place.block->keys.size(); ++v)
+    const std::size_t count = place.block->keys.size();
+    for (std::size_t v = 0; v < count; ++v)
     {
-      const std::ptrdiff_t at = VertexPlace(place, v);
+      const std::int32_t at = VertexPlace(place, v);
       if (at >= 0)
       {
-        const Vector3d position = place.block->Position(this->Lattice, v);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          if (arrays.singlePoints)
-          {
-            arrays.singlePoints[3 * at + axis] = static_cast<float>(position[axis]);
-          }
-          else
-          {
-            arrays.doublePoints[3 * at + axis] = position[axis];
-          }
-        }
+        WritePoint(arrays, at, place.block->Position(this->Lattice, v));
+      }
+    }
+    for (std::size_t i = 0; i < place.sharp.size(); ++i)
+    {
+      WritePoint(arrays, place.firstVertex + count + i, place.sharp[i].position);
+    }
+  }
+
+  static void WritePoint(const ContourArrays& arrays, std::size_t at, const Vector3d& position)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (arrays.singlePoints)
+      {
+        arrays.singlePoints[3 * at + axis] = static_cast<float>(position[axis]);
+      }
+      else
+      {
+        arrays.doublePoints[3 * at + axis] = position[axis];
       }
     }
   }
@@ -365,34 +489,132 @@ private:
   bool WriteTriangles(const BlockPlace& place, const ContourArrays& arrays) const
   {
     bool whole = true;
-    int view[3];
-    SurfaceKind kind[3];
     std::array<BlockPlace*, 8> owners = {};
-    this->ForEachCorner(*place.block,
-      [&](std::size_t t, int corner, const LatticeIndex& point, int axis)
+    const int size = ContourBlock::Size;
+    ForEachTriangle(place,
+      [&](std::size_t t, const std::array<Corner, 3>& corners, std::size_t, auto)
       {
-        const int size = ContourBlock::Size;
-        BlockPlace*& owner = owners[point[0] / size | point[1] / size << 1 | point[2] / size << 2];
-        const std::size_t vertex = this->FindVertex(place, point, axis, owner);
-        if (vertex == Missing)
-        {
-          whole = false;
-          return;
-        }
+        int view[3];
+        SurfaceKind kind[3];
         const std::size_t triangle = place.firstTriangle + t;
-        arrays.triangles[3 * triangle + corner] = VertexPlace(*owner, vertex);
-        view[corner] = owner->block->View(vertex);
-        kind[corner] = owner->block->Kind(vertex);
-        if (corner == 2 && arrays.view)
+        const bool isSharp = corners[0].sharp >= 0;
+        for (int i = 0; i < 3; ++i)
+        {
+          if (corners[i].sharp >= 0)
+          {
+            arrays.triangles[3 * triangle + i] =
+              VertexPlace(place, place.block->keys.size() + corners[i].sharp);
+            continue;
+          }
+          const LatticeIndex& point = corners[i].point;
+          BlockPlace*& owner =
+            owners[point[0] / size | point[1] / size << 1 | point[2] / size << 2];
+          const std::size_t vertex = this->FindVertex(place, point, corners[i].axis, owner);
+          if (vertex == Missing)
+          {
+            whole = false;
+            return;
+          }
+          arrays.triangles[3 * triangle + i] = VertexPlace(*owner, vertex);
+          view[i] = owner->block->View(vertex);
+          kind[i] = owner->block->Kind(vertex);
+        }
+        if (arrays.view)
         {
           // What most of the corners are; the first where all differ.
-          const int most = view[1] == view[2] && kind[1] == kind[2] ? 1 : 0;
+          const int most = isSharp || (view[1] == view[2] && kind[1] == kind[2]) ? 1 : 0;
           arrays.view[triangle] = view[most];
           arrays.kind[triangle] = kind[most];
         }
       });
     return whole;
   }
+
+  /// A triangle of a fan about a sharp vertex, with the edge that it has on a face of its cell.
+  struct FanTriangle
+  {
+    std::int32_t low, high; ///< ends of the edge, in order
+    std::int32_t sharp;
+    std::size_t triangle;
+    Vector3d position; ///< of the sharp vertex
+    Vector3d faceLow;  ///< the face's first corner
+    int faceAxis;
+  };
+
+  /// Joins sharp vertices of neighbouring cells by an edge, instead of the one that parts them.
+  void FlipToSharpEdges(const ContourArrays& arrays) const
+  {
+    std::vector<FanTriangle> fans = this->CollectFans(arrays);
+    std::sort(fans.begin(), fans.end(),
+      [](const FanTriangle& a, const FanTriangle& b)
+      { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
+    for (std::size_t i = 0; i + 1 < fans.size(); ++i)
+    {
+      const FanTriangle &a = fans[i], &b = fans[i + 1];
+      if (a.low == b.low && a.high == b.high && this->MayJoin(a, b))
+      {
+        // (s, u, v) and (t, v, u) become (s, u, t) and (t, v, s).
+        arrays.triangles[3 * a.triangle + 2] = b.sharp;
+        arrays.triangles[3 * b.triangle + 2] = a.sharp;
+      }
+    }
+  }
+
+  std::vector<FanTriangle> CollectFans(const ContourArrays& arrays) const
+  {
+    std::vector<FanTriangle> fans;
+    for (const BlockPlace& place : this->Places)
+    {
+      if (place.sharp.empty())
+      {
+        continue;
+      }
+      ForEachTriangle(place,
+        [&](std::size_t t, const std::array<Corner, 3>& corners, std::size_t c,
+          const std::pair<int, int>& edges)
+        {
+          if (corners[0].sharp < 0)
+          {
+            return;
+          }
+          const int face = CubeCases::CommonFace(edges.first, edges.second);
+          if (CubeCases::IsAmbiguous(place.block->cases[c], face))
+          {
+            return;
+          }
+          const std::size_t triangle = place.firstTriangle + t;
+          const std::int32_t* ids = arrays.triangles + 3 * triangle;
+          LatticeIndex cell = CellOf(place.block->cells[c]);
+          cell[face >> 1] += face & 1;
+          fans.push_back({ std::min(ids[1], ids[2]), std::max(ids[1], ids[2]), ids[0], triangle,
+            place.sharp[corners[0].sharp].position, this->CellCorner(*place.block, cell),
+            face >> 1 });
+        });
+    }
+    return fans;
+  }
+
+  /// Whether the new edge passes through the face between its cells, well off its border: then the
+  /// new triangles stay within the two cells, where nothing else is on that face.
+  bool MayJoin(const FanTriangle& a, const FanTriangle& b) const
+  {
+    const int axis = a.faceAxis;
+    const double from = a.position[axis] - a.faceLow[axis];
+    const double to = b.position[axis] - a.faceLow[axis];
+    const Vector3d through = a.position + from / (from - to) * (b.position - a.position);
+    const double room = SharpClearance * this->Lattice.spacing;
+    bool isInside = from * to < 0;
+    for (int other : { (axis + 1) % 3, (axis + 2) % 3 })
+    {
+      const double place = through[other] - a.faceLow[other];
+      isInside = isInside && place > room && place < this->Lattice.spacing - room;
+    }
+    return isInside;
+  }
+
+  /// Sharp vertices keep so far from the sides of their cells, and new edges from those of the faces,
+  /// in cells.
+  static constexpr double SharpClearance = 0.01;
 
   const BoundedField Field;
   const ContourLattice Lattice;

@@ -21,8 +21,11 @@ struct ContourOptions
                            ///< cell, lest triangles vanish; in (0, 0.25]
   bool exact = true;       ///< take crossings from the field where it knows them, see
                            ///< ContourField::Crossing; the tolerance is for all others
-  int piece = 0;           ///< which of the pieces to make; in [0, pieces)
-  int pieces = 1;          ///< that together are the surface; >= 1
+  bool sharp = false;      ///< rebuild sharp edges and corners from the normals at the crossings
+  double sharpAngle =
+    30;           ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
+  int piece = 0;  ///< which of the pieces to make; in [0, pieces)
+  int pieces = 1; ///< that together are the surface; >= 1
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -49,6 +52,13 @@ using AllocateContour = std::function<ContourArrays(std::size_t points, std::siz
 /// The lattice is descended as an octree of boxes that the field classifies; where it cannot, every
 /// point is asked. The work is cut into blocks that depend on the lattice alone, so the mesh is the
 /// same for any number of threads. The surface is closed, 2-manifold and oriented for any field.
+///
+/// With `sharp` on it is extended marching cubes (Kobbelt, Botsch, Schwanecke, Seidel, "Feature
+/// sensitive surface extraction from volume data", SIGGRAPH 2001): a cell whose crossings have normals
+/// that differ by more than the sharp angle gets a vertex where the crossings' planes meet, and edges
+/// are flipped to join such vertices of neighbouring cells. Only where that keeps the surface from
+/// meeting itself: in cells that one sheet passes, with the vertex inside of the cell, and over a face
+/// that one line crosses, with the new edge through it. Not in pieces.
 ///
 /// Pieces share out the lattice. A piece is open where it meets others, and has exactly their
 /// vertices there.

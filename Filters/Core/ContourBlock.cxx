@@ -251,6 +251,10 @@ private:
     this->Block.places.push_back(static_cast<float>(place));
     this->Block.Labels.push_back(
       static_cast<std::int16_t>(label.view * 4 + static_cast<int>(label.kind)));
+    if (this->Options.keepNormals)
+    {
+      this->Block.normals.push_back(label.normal.cast<float>());
+    }
   }
 
   /// The bisection of section 2.2, from matter to free.
@@ -303,6 +307,7 @@ ContourBlock::ContourBlock(const BoundedField& field, const ContourLattice& latt
   BlockSampler(field, lattice, options, range, *this).Run(scope);
   this->keys.shrink_to_fit();
   this->places.shrink_to_fit();
+  this->normals.shrink_to_fit();
   this->Labels.shrink_to_fit();
   this->cells.shrink_to_fit();
   this->cases.shrink_to_fit();

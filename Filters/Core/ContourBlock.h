@@ -80,6 +80,7 @@ struct CrossingOptions
   double tolerance = 1e-3;
   double clearance = 0.01;
   bool exact = true;
+  bool keepNormals = false;
 };
 
 /// The contour within a block of cells: its vertices, by bisection along the lattice edges that
@@ -116,7 +117,8 @@ public:
 
   // Vertices, in the order of their keys.
   std::vector<std::uint16_t> keys;
-  std::vector<float> places; ///< along the edge, 0 to 1
+  std::vector<float> places;            ///< along the edge, 0 to 1
+  std::vector<Eigen::Vector3f> normals; ///< of the surface there, when wanted
 
   // Cells that the surface passes.
   std::vector<std::uint16_t> cells; ///< (k * Size + j) * Size + i

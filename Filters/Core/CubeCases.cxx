@@ -122,6 +122,28 @@ CubeCases::CubeCases()
   }
 }
 
+int CubeCases::CommonFace(int edgeA, int edgeB)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int a = Begin(edgeA) >> axis & 1, b = Begin(edgeB) >> axis & 1;
+    if (edgeA >> 2 != axis && edgeB >> 2 != axis && a == b)
+    {
+      return 2 * axis + a;
+    }
+  }
+  return -1;
+}
+
+bool CubeCases::IsAmbiguous(int matterCorners, int face)
+{
+  const int axis = face >> 1, base = (face & 1) << axis;
+  const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+  const auto matter = [&](int corner) { return matterCorners >> corner & 1; };
+  return matter(base) == matter(base | u | v) && matter(base | u) == matter(base | v) &&
+    matter(base) != matter(base | u);
+}
+
 const CubeCases& CubeCases::Get()
 {
   static const CubeCases cases;

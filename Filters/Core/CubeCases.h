@@ -43,6 +43,13 @@ public:
                      : first | second << 1;
   }
 
+  /// The face that two edges of a loop, one after the other, share: 2 * axis, and 1 more for the upper
+  /// one.
+  static int CommonFace(int edgeA, int edgeB);
+
+  /// Whether two lines cross a face.
+  static bool IsAmbiguous(int matterCorners, int face);
+
 private:
   CubeCases();
 

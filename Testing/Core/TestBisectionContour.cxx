@@ -249,6 +249,75 @@ TEST(BisectionContour, TrianglesKnowWhatTheyAre)
   EXPECT_GT(count[2], 100); // the hull
 }
 
+TEST(BisectionContour, SharpModeRebuildsTheEdgesOfACube)
+{
+  class Block : public ContourField
+  {
+  public:
+    bool IsFree(const Vector3d& point, const FieldScope&) const override
+    {
+      return (this->Turn * point).cwiseAbs().maxCoeff() > 0.5;
+    }
+    SurfaceLabel Label(const Vector3d& free, const Vector3d&, const FieldScope&) const override
+    {
+      const Vector3d p = this->Turn * free;
+      Eigen::Index axis;
+      p.cwiseAbs().maxCoeff(&axis);
+      return { 0, SurfaceKind::Feature,
+        this->Turn.transpose() * Vector3d(std::copysign(1.0, p[axis]) * Vector3d::Unit(axis)) };
+    }
+    Eigen::Matrix3d Turn;
+  };
+  for (double angle : { 0.0, 0.1, 0.2 })
+  {
+    Block block;
+    block.Turn = Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()).matrix();
+    ContourOptions options = Cells(32);
+    options.tolerance = 1e-5;
+    const double cell = 1.7 / 31;
+    const ContourMesh plain = BisectionContour(block, Cube(0.85), options);
+    options.sharp = true;
+    const ContourMesh sharp = BisectionContour(block, Cube(0.85), options);
+    EXPECT_EQ(TopologyFaults(sharp), "");
+    EXPECT_NEAR(EnclosedVolume(sharp), 1.0, 0.002);
+    EXPECT_LT(std::abs(EnclosedVolume(sharp) - 1), 0.3 * std::abs(EnclosedVolume(plain) - 1));
+    // How far places on the cube's edges, and its corners, are from the nearest sharp vertex edge.
+    int far = 0, corners = 0;
+    const auto distance = [&](const Vector3d& p)
+    {
+      double least = HUGE_VAL;
+      for (const auto& t : sharp.triangles)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          const Vector3d &a = sharp.points[t[i]], &b = sharp.points[t[(i + 1) % 3]];
+          const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+          least = std::min(least, (a + s * (b - a) - p).norm());
+        }
+      }
+      return least / cell;
+    };
+    const int samples = 10;
+    for (int edge = 0; edge < 12; ++edge)
+    {
+      const int axis = edge / 4;
+      for (int i = 0; i <= samples; ++i)
+      {
+        Vector3d p;
+        p[axis] = i / double(samples) - 0.5;
+        p[(axis + 1) % 3] = edge & 1 ? 0.5 : -0.5;
+        p[(axis + 2) % 3] = edge & 2 ? 0.5 : -0.5;
+        const bool isFar = distance(block.Turn.transpose() * p) > 0.1;
+        far += isFar;
+        corners += isFar && (i == 0 || i == samples);
+      }
+    }
+    // Where a wedge dips into a cell without crossing its edges, no lattice can see it.
+    EXPECT_LE(far, angle == 0.0 ? 0 : 12 * (samples + 1) / 8) << angle;
+    EXPECT_LE(corners, angle == 0.0 ? 0 : 3 * 2) << angle;
+  }
+}
+
 TEST(BisectionContour, AwkwardInput)
 {
   EXPECT_TRUE(BisectionContour(Ball(), AlignedBox3d(), {}).points.empty());

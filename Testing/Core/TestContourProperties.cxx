@@ -109,6 +109,11 @@ TEST_P(RandomUnion, ContourKeepsItsPromises)
   ASSERT_GT(mesh.triangles.size(), 100u);
   EXPECT_EQ(TopologyFaults(mesh), "");
   EXPECT_FALSE(MeetsItself(mesh));
+  options.sharp = true;
+  const ContourMesh sharp = BisectionContour(phi, phi.Hull().Bounds(), options);
+  EXPECT_GT(sharp.points.size(), mesh.points.size());
+  EXPECT_EQ(TopologyFaults(sharp), "");
+  EXPECT_FALSE(MeetsItself(sharp));
   if (unionOptions.hullMargin == 0.0)
   {
     return;

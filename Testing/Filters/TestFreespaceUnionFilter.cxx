@@ -240,6 +240,49 @@ TEST(vtkBisectionContourFilter, ContoursAUnion)
   EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0], 0.02 * (b[1] - b[0]));
 }
 
+TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(40);
+  contour->Update();
+  vtkDataArray* kinds = contour->GetOutput()->GetCellData()->GetArray("Kind");
+  vtkIdType seen = 0;
+  for (vtkIdType i = 0; i < kinds->GetNumberOfTuples(); ++i)
+  {
+    seen += kinds->GetTuple1(i) == 0;
+  }
+  contour->ObservedOnlyOn();
+  contour->Update();
+  EXPECT_GT(seen, 100);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), seen);
+  EXPECT_EQ(contour->GetOutput()->GetCellData()->GetArray("Kind")->GetRange()[1], 0);
+  contour->SharpEdgesOn();
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), seen);
+}
+
+TEST(vtkBisectionContourFilter, PiecesTogetherAreTheWhole)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(100);
+  contour->Update();
+  const vtkIdType whole = contour->GetOutput()->GetNumberOfCells();
+  vtkIdType sum = 0;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    contour->UpdatePiece(piece, 3, 0);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), whole / 10);
+    sum += contour->GetOutput()->GetNumberOfCells();
+  }
+  EXPECT_EQ(sum, whole);
+}
+
 TEST(vtkBisectionContourFilter, ContoursAnyFunction)
 {
   vtkNew<vtkSphere> sphere;
