@@ -98,7 +98,8 @@ public:
    * Rebuild sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
    * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The
    * surface stays closed, 2-manifold and free of self-intersection. It is then made whole, not in
-   * pieces. Default off, 30 degrees.
+   * pieces. Default off, 60 degrees: features with noise tilt small triangles
+   * by tens of degrees.
    */
   vtkSetMacro(SharpEdges, bool);
   vtkGetMacro(SharpEdges, bool);
@@ -137,7 +138,7 @@ protected:
   double Clearance = 0.01;
   bool ExactCrossings = true;
   bool SharpEdges = false;
-  double SharpAngle = 30.0;
+  double SharpAngle = 60.0;
   bool ObservedOnly = false;
 
 private:

@@ -22,8 +22,7 @@ struct ContourOptions
   bool exact = true;       ///< take crossings from the field where it knows them, see
                            ///< ContourField::Crossing; the tolerance is for all others
   bool sharp = false;      ///< rebuild sharp edges and corners from the normals at the crossings
-  double sharpAngle =
-    30;           ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
+  double sharpAngle = 60; ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
   int piece = 0;  ///< which of the pieces to make; in [0, pieces)
   int pieces = 1; ///< that together are the surface; >= 1
 
