@@ -130,6 +130,13 @@ void ContourStage::AddOptions(CLI::App& command)
     ->check(CLI::PositiveNumber)
     ->capture_default_str()
     ->group("Surface");
+  command
+    .add_flag("--sharp,!--no-sharp", this->Sharp, "Rebuild sharp edges and corners (default on)")
+    ->group("Surface");
+  command
+    .add_flag("--observed", this->Observed,
+      "Keep only what was seen: an open surface without the hull and silhouette walls")
+    ->group("Surface");
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
@@ -141,6 +148,8 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
   vtkNew<vtkBisectionContourFilter> contour;
   contour->SetImplicitFunction(phi);
   contour->SetCells(this->Cells);
+  contour->SetSharpEdges(this->Sharp);
+  contour->SetObservedOnly(this->Observed);
   session.Run(contour, "contour");
   vtkSmartPointer<vtkPolyData> surface = contour->GetOutput();
   session.Tell("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +

@@ -56,6 +56,8 @@ private:
   int Cells = 256;
   double HullMargin = 0.01;
   int MinimumViews = 1;
+  bool Sharp = true;
+  bool Observed = false;
 };
 
 /// Reads a .vtm of features or disparity maps.
