@@ -96,7 +96,7 @@ private:
   // The tokens [begin, end) of a chain that have a hypothesis, in pieces without a jump.
   void SplitIntoRuns(int begin, int end, std::vector<std::vector<int>>& runs) const
   {
-    constexpr double gap = 8; // pixels
+    constexpr double gap = 12; // pixels
     const std::size_t before = runs.size();
     for (int i = begin; i < end; ++i)
     {
@@ -217,12 +217,20 @@ private:
     return std::min(this->Options.tolerance, std::max(least, factor * *middle));
   }
 
+  // An edge near to parallel with the epipolar line magnifies its error: it has to fit better, so
+  // that its disparity is known to the limit, too (in pixels of the longest baseline).
+  double LimitOf(const EdgeHypothesis& hypothesis, double limit) const
+  {
+    return limit * std::min(1.0, 1 / (hypothesis.sigma * this->Baseline));
+  }
+
   void MatchRun(const std::vector<int>& run, double limit)
   {
     std::vector<int> kept;
     for (int i : run)
     {
-      const bool fits = this->Residual[i] <= limit && this->Matches[i].disparity > 0;
+      const bool fits = this->Residual[i] <= this->LimitOf(this->Chosen[i], limit) &&
+        this->Matches[i].disparity > 0;
       if (fits && this->MeanCost(this->Chosen[i]) <= this->Options.maximumCost)
       {
         kept.push_back(i);

@@ -73,10 +73,11 @@ struct GradientRow
 // Noise grows with the square root of the light, therefore so does the slope that makes an edge.
 // The offset stands for the noise without light. Slopes, squared, are scaled to those of middle
 // grey.
+constexpr float NoiseScaleOffset = 8;
+constexpr float NoiseScaleNumerator = 128 + NoiseScaleOffset;
 float NoiseScale(float grey)
 {
-  constexpr float middle = 128, offset = 8;
-  return (middle + offset) / (std::max(grey, 0.0f) + offset);
+  return NoiseScaleNumerator / (grey + NoiseScaleOffset);
 }
 
 // Vertex of the parabola through the slopes at -1, 0 and 1, which are given squared, the middle one
@@ -95,11 +96,10 @@ void FindPointsInRow(const cv::Mat& smooth, int y, const GradientRow& above, con
 {
   const float* grey = smooth.ptr<float>(y);
   const float* slope = row.squared.data();
-  // The least slope is that in the dark: a cheap test before the exact one.
-  const float least = low * low / NoiseScale(0);
+  const float scale = low * low / NoiseScaleNumerator;
   for (int x = 1; x + 1 < smooth.cols; ++x)
   {
-    if (slope[x] < least)
+    if (slope[x] < scale * (grey[x] + NoiseScaleOffset))
     {
       continue;
     }
@@ -107,7 +107,7 @@ void FindPointsInRow(const cv::Mat& smooth, int y, const GradientRow& above, con
     const float before = alongX ? slope[x - 1] : above.squared[x];
     const float after = alongX ? slope[x + 1] : below.squared[x];
     const float contrast = slope[x] * NoiseScale(grey[x]);
-    if (slope[x] > before && slope[x] >= after && contrast >= low * low)
+    if (slope[x] > before && slope[x] >= after)
     {
       const float offset = PeakOffset(before, slope[x], after);
       index[x] = static_cast<int>(points.size());

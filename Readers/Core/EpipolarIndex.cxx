@@ -15,6 +15,7 @@ using Segment = EpipolarIndex::Segment;
 std::vector<Segment> RectifiedSegments(
   const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
+  constexpr double leastScale = 0.34; // cosine of 70 degrees
   std::vector<Segment> segments;
   segments.reserve(edges.tokens.size());
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
@@ -24,7 +25,7 @@ std::vector<Segment> RectifiedSegments(
     {
       const EpipolarPair::Ray ray = next;
       next = pair.FromOther(edges.tokens[i + 1].position);
-      if (!(ray.scale > 0) || !(next.scale > 0) || ray.v == next.v)
+      if (!(ray.scale > leastScale) || !(next.scale > leastScale) || ray.v == next.v)
       {
         continue;
       }
@@ -40,10 +41,6 @@ std::vector<Segment> RectifiedSegments(
       }
     }
   }
-  // Distributed to their rows in this order, they stay sorted.
-  std::sort(segments.begin(), segments.end(),
-    [](const Segment& a, const Segment& b)
-    { return a.u < b.u || (a.u == b.u && a.token < b.token); });
   return segments;
 }
 
@@ -56,37 +53,47 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   {
     return;
   }
-  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  constexpr float most = std::numeric_limits<float>::max();
+  float low = most, high = -most, left = most, right = -most;
   for (const Segment& segment : segments)
   {
     low = std::min(low, segment.low);
     high = std::max(high, segment.high);
+    left = std::min(left, segment.u);
+    right = std::max(right, segment.u);
     this->Widest = std::max(this->Widest, std::abs(segment.slope) * (segment.high - segment.low));
   }
   this->FirstRow = std::floor(low);
-  const auto visitRows = [this](const Segment& segment, auto&& visit)
+  this->FirstColumn = left;
+  this->Rows = static_cast<int>(std::floor(high) - this->FirstRow) + 1;
+  // At most a few cells for each segment, however the images are stretched.
+  const float cells = 4.0f * static_cast<float>(segments.size());
+  this->CellWidth = std::max(this->CellWidth, (right - left) * 2 * this->Rows / cells);
+  this->Columns = static_cast<int>((right - left) / CellWidth) + 1;
+  const auto visitCells = [this](const Segment& segment, auto&& visit)
   {
     const int first = static_cast<int>(std::floor(segment.low) - this->FirstRow);
     const int last = static_cast<int>(std::floor(segment.high) - this->FirstRow);
+    const int column = this->ColumnOf(segment.u);
     for (int row = first; row <= last; ++row)
     {
-      visit(2 * row + (segment.tangentV > 0));
+      visit((2 * row + (segment.tangentV > 0)) * this->Columns + column);
     }
   };
-  this->Begin.assign(2 * static_cast<int>(std::floor(high) - this->FirstRow) + 3, 0);
+  this->Begin.assign(static_cast<std::size_t>(2) * this->Rows * this->Columns + 1, 0);
   for (const Segment& segment : segments)
   {
-    visitRows(segment, [this](int row) { ++this->Begin[row + 1]; });
+    visitCells(segment, [this](int cell) { ++this->Begin[cell + 1]; });
   }
-  for (std::size_t row = 1; row < this->Begin.size(); ++row)
+  for (std::size_t cell = 1; cell < this->Begin.size(); ++cell)
   {
-    this->Begin[row] += this->Begin[row - 1];
+    this->Begin[cell] += this->Begin[cell - 1];
   }
   this->Segments.resize(this->Begin.back());
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   for (const Segment& segment : segments)
   {
-    visitRows(segment, [&](int row) { this->Segments[next[row]++] = segment; });
+    visitCells(segment, [&](int cell) { this->Segments[next[cell]++] = segment; });
   }
 }
 

@@ -26,7 +26,8 @@ public:
     int token;
   };
 
-  /// Leaves out what makes an angle of less than asin(minimumSine) with the rows.
+  /// Leaves out what lies more than 70 degrees off the rectified axis, next to the other camera's
+  /// direction, and what makes an angle of less than asin(minimumSine) with the rows.
   EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, double minimumSine);
 
   /// Calls visit(segment, u) for all that cross row v at a column u of [near, far) and go down the
@@ -34,31 +35,41 @@ public:
   template <typename Visitor>
   void VisitRow(double v, bool down, float near, float far, Visitor&& visit) const
   {
-    const double row = 2 * (std::floor(v) - this->FirstRow) + down;
-    if (!(row >= 0) || row + 1 >= static_cast<double>(this->Begin.size()))
+    const double row = std::floor(v) - this->FirstRow;
+    if (!(row >= 0 && row < this->Rows))
     {
       return;
     }
-    const auto begin = this->Segments.begin() + this->Begin[static_cast<std::size_t>(row)];
-    const auto end = this->Segments.begin() + this->Begin[static_cast<std::size_t>(row) + 1];
+    const int line = (2 * static_cast<int>(row) + down) * this->Columns;
+    const int begin = this->Begin[line + this->ColumnOf(near - this->Widest)];
+    const int end = this->Begin[line + this->ColumnOf(far + this->Widest) + 1];
     const float at = static_cast<float>(v);
-    const auto first = std::lower_bound(begin, end, near - this->Widest,
-      [](const Segment& segment, float u) { return segment.u < u; });
-    for (auto segment = first; segment != end && segment->u < far + this->Widest; ++segment)
+    for (int i = begin; i < end; ++i)
     {
-      const float u = segment->u + (at - segment->v) * segment->slope;
-      if (segment->low <= at && at < segment->high && u >= near && u < far)
+      const Segment& segment = this->Segments[i];
+      const float u = segment.u + (at - segment.v) * segment.slope;
+      if (segment.low <= at && at < segment.high && u >= near && u < far)
       {
-        visit(*segment, u);
+        visit(segment, u);
       }
     }
   }
 
 private:
-  std::vector<Segment> Segments; // by row, direction and u; in each row that they touch
-  std::vector<int> Begin;        // per row twice, up and down, and one past the last
-  double FirstRow = 0;
-  float Widest = 0; // difference between the columns of a segment's ends
+  int ColumnOf(float u) const
+  {
+    const float column = (u - this->FirstColumn) / CellWidth;
+    return static_cast<int>(std::min(std::max(column, 0.0f), this->Columns - 1.0f));
+  }
+
+  std::vector<Segment> Segments; // by cell; in that of their start, in each row that they touch
+  std::vector<int> Begin; // of each cell and one past the last: rows twice (up and down) x columns
+  int Rows = 0;
+  int Columns = 0;
+  float FirstRow = 0;
+  float FirstColumn = 0;
+  float CellWidth = 32; // pixels
+  float Widest = 0;     // difference between the columns of a segment's ends
 };
 
 }

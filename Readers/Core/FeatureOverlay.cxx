@@ -17,7 +17,7 @@ namespace freespace
 namespace
 {
 
-// Where the disparities lie on a scale of 0 .. 255.
+// Where the disparities lie on a scale of 0 .. 255; its dark ends are left out.
 std::vector<std::uint8_t> ScaledDisparities(const View& view)
 {
   std::vector<double> disparity;
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> ScaledDisparities(const View& view)
   for (double value : disparity)
   {
     const double share = high > low ? (value - low) / (high - low) : 0.5;
-    scaled.push_back(cv::saturate_cast<std::uint8_t>(255 * share));
+    scaled.push_back(cv::saturate_cast<std::uint8_t>(25 + 205 * std::clamp(share, 0.0, 1.0)));
   }
   return scaled;
 }
