@@ -19,6 +19,7 @@ void AddTriangulateCommand(CLI::App& program, Session& session);
 void AddContourCommand(CLI::App& program, Session& session);
 void AddQueryCommand(CLI::App& program, Session& session);
 void AddRenderCommand(CLI::App& program, Session& session);
+void AddTextureCommand(CLI::App& program, Session& session);
 void AddViewCommand(CLI::App& program, Session& session);
 
 }

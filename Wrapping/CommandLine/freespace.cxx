@@ -72,6 +72,7 @@ int Run(int argc, char* argv[])
   freespace::AddContourCommand(program, session);
   freespace::AddQueryCommand(program, session);
   freespace::AddRenderCommand(program, session);
+  freespace::AddTextureCommand(program, session);
   freespace::AddViewCommand(program, session);
   for (CLI::App* command : program.get_subcommands({}))
   {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTextureBaker.h"
+
+#include "AlgorithmProgress.h"
+#include "Error.h"
+#include "PhotographBlocks.h"
+#include "SMPParallelFor.h"
+#include "TextureAtlas.h"
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkTextureBaker);
+
+namespace
+{
+
+using namespace freespace;
+
+void SetTexture(const TextureAtlas& atlas, vtkImageData* texture)
+{
+  texture->SetDimensions(atlas.width, atlas.height, 1);
+  texture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const std::size_t line = std::size_t(3) * atlas.width;
+  for (int row = 0; row < atlas.height; ++row)
+  {
+    std::copy_n(atlas.rgb.data() + row * line, line,
+      static_cast<unsigned char*>(texture->GetScalarPointer(0, atlas.height - 1 - row, 0)));
+  }
+}
+
+// The atlas is asked for the colours of points, so that they are those of the texture.
+void AddColors(const TextureAtlas& atlas, vtkPolyData* surface)
+{
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("RGB");
+  colors->SetNumberOfComponents(3);
+  for (const Eigen::Vector2d& at : atlas.coordinates)
+  {
+    const int column = std::clamp(static_cast<int>(at.x() * atlas.width), 0, atlas.width - 1);
+    const int row = std::clamp(static_cast<int>(at.y() * atlas.height), 0, atlas.height - 1);
+    colors->InsertNextTypedTuple(&atlas.rgb[3 * (std::size_t(row) * atlas.width + column)]);
+  }
+  surface->GetPointData()->SetScalars(colors);
+}
+
+void SetSurface(const TriangleMesh& mesh, const TextureAtlas& atlas, vtkPolyData* surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetName("TextureCoordinates");
+  coordinates->SetNumberOfComponents(2);
+  for (std::size_t i = 0; i < atlas.source.size(); ++i)
+  {
+    points->InsertNextPoint(mesh.points[atlas.source[i]].data());
+    coordinates->InsertNextTuple2(atlas.coordinates[i].x(), 1 - atlas.coordinates[i].y());
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (const std::array<int, 3>& triangle : atlas.triangles)
+  {
+    const vtkIdType ids[3] = { triangle[0], triangle[1], triangle[2] };
+    triangles->InsertNextCell(3, ids);
+  }
+  surface->SetPoints(points);
+  surface->SetPolys(triangles);
+  surface->GetPointData()->SetTCoords(coordinates);
+  AddColors(atlas, surface);
+}
+
+}
+
+vtkTextureBaker::vtkTextureBaker()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+void vtkTextureBaker::SetPhotographs(vtkMultiBlockDataSet* photographs)
+{
+  if (this->Photographs != photographs)
+  {
+    this->Photographs = photographs;
+    this->Modified();
+  }
+}
+
+vtkMultiBlockDataSet* vtkTextureBaker::GetPhotographs()
+{
+  return this->Photographs;
+}
+
+vtkImageData* vtkTextureBaker::GetTexture()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkMTimeType vtkTextureBaker::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Photographs ? std::max(own, this->Photographs->GetMTime()) : own;
+}
+
+int vtkTextureBaker::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkImageData");
+  return 1;
+}
+
+int vtkTextureBaker::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  // The size of the texture is known only when it is made: whatever is asked for is given whole.
+  const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
+  outputVector->GetInformationObject(1)->Set(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), nothing, 6);
+  return 1;
+}
+
+int vtkTextureBaker::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* surface = vtkPolyData::GetData(outputVector, 0);
+  vtkImageData* texture = vtkImageData::GetData(outputVector, 1);
+  try
+  {
+    const freespace::Progress progress = AlgorithmProgress(this);
+    const TriangleMesh mesh = MeshFromPolyData(vtkPolyData::GetData(inputVector[0]));
+    if (mesh.triangles.empty())
+    {
+      throw Error("There is no surface to texture.");
+    }
+    SurfaceColorOptions look;
+    look.sharpness = this->Sharpness;
+    look.level = this->Leveling;
+    look.visibility.feather = this->Feather;
+    const SurfaceColor color(mesh, PhotographsFromBlocks(this->Photographs), look, SMPParallelFor);
+    progress(0.2);
+    TextureAtlasOptions options;
+    options.texel = this->TexelSize;
+    options.largest = this->LargestTexture;
+    options.unseen = 255 * Eigen::Vector3d(this->UnseenColor);
+    const TextureAtlas atlas =
+      BakeTexture(mesh, color, options, SMPParallelFor, progress.Part(0.2, 1.0));
+    this->NumberOfCharts = atlas.charts;
+    this->BakedTexelSize = atlas.texel;
+    SetSurface(mesh, atlas, surface);
+    SetTexture(atlas, texture);
+    return 1;
+  }
+  catch (const Aborted&)
+  {
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+void vtkTextureBaker::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Photographs: " << this->Photographs.Get() << "\n";
+  os << indent << "TexelSize: " << this->TexelSize << "\n";
+  os << indent << "LargestTexture: " << this->LargestTexture << "\n";
+  os << indent << "Sharpness: " << this->Sharpness << "\n";
+  os << indent << "Leveling: " << this->Leveling << "\n";
+  os << indent << "Feather: " << this->Feather << "\n";
+  os << indent << "UnseenColor: " << this->UnseenColor[0] << " " << this->UnseenColor[1] << " "
+     << this->UnseenColor[2] << "\n";
+  os << indent << "NumberOfCharts: " << this->NumberOfCharts << "\n";
+  os << indent << "BakedTexelSize: " << this->BakedTexelSize << "\n";
+}

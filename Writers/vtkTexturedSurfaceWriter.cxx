@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTexturedSurfaceWriter.h"
+
+#include "AtomicOutput.h"
+#include "BinaryGLTF.h"
+#include "Error.h"
+
+#include <vtkErrorCode.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkOBJWriter.h>
+#include <vtkObjectFactory.h>
+#include <vtkPLYWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+vtkStandardNewMacro(vtkTexturedSurfaceWriter);
+
+namespace
+{
+
+std::string LowerCaseEnding(const std::string& fileName)
+{
+  std::string ending = std::filesystem::path(fileName).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+void WriteColouredPLY(vtkPolyData* surface, const std::string& fileName)
+{
+  auto* colors = vtkUnsignedCharArray::SafeDownCast(surface->GetPointData()->GetScalars());
+  if (!colors || !colors->GetName())
+  {
+    throw freespace::Error("The surface's points have no named colours for a PLY.");
+  }
+  // Without the texture's coordinates, which PLY viewers take for a texture that is not there.
+  vtkNew<vtkPolyData> plain;
+  plain->ShallowCopy(surface);
+  plain->GetPointData()->SetTCoords(nullptr);
+  vtkNew<vtkPLYWriter> writer;
+  writer->SetInputData(plain);
+  writer->SetArrayName(colors->GetName());
+  writer->SetFileTypeToBinary();
+  writer->SetFileName(fileName.c_str());
+  if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+  }
+}
+
+void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const std::string& fileName)
+{
+  vtkNew<vtkOBJWriter> writer;
+  writer->SetInputData(0, surface);
+  writer->SetInputData(1, texture);
+  writer->SetFileName(fileName.c_str());
+  if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+  }
+}
+
+}
+
+vtkTexturedSurfaceWriter::vtkTexturedSurfaceWriter()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+bool vtkTexturedSurfaceWriter::CanWriteFile(const std::string& fileName)
+{
+  const std::string ending = LowerCaseEnding(fileName);
+  return ending == ".glb" || ending == ".obj" || ending == ".ply";
+}
+
+int vtkTexturedSurfaceWriter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkImageData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+void vtkTexturedSurfaceWriter::WriteData()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  auto* surface = vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0));
+  auto* texture = vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
+  try
+  {
+    if (!CanWriteFile(this->FileName))
+    {
+      throw freespace::Error("Cannot write '" + this->FileName +
+        "': a textured surface's file name ends in .glb, .obj or .ply.");
+    }
+    const std::string ending = LowerCaseEnding(this->FileName);
+    const bool textured = texture && texture->GetNumberOfPoints() > 0 &&
+      texture->GetScalarType() == VTK_UNSIGNED_CHAR && surface->GetPointData()->GetTCoords();
+    if (ending != ".ply" && !textured)
+    {
+      throw freespace::Error(
+        "Cannot write " + this->FileName + ": the surface has no texture or no coordinates in it.");
+    }
+    freespace::AtomicOutput target(this->FileName);
+    if (ending == ".glb")
+    {
+      freespace::WriteBinaryGLTF(surface, texture, this->ZUp, target.Path());
+    }
+    else if (ending == ".obj")
+    {
+      WriteOBJ(surface, texture, target.Path());
+    }
+    else
+    {
+      WriteColouredPLY(surface, target.Path());
+    }
+    target.Commit();
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkTexturedSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "ZUp: " << this->ZUp << "\n";
+}
