@@ -169,6 +169,30 @@ void ReadPoints(vtkPolyData* block, View& view)
   }
 }
 
+// Polylines come apart into the edges between their points.
+void ReadEdges(vtkPolyData* block, View& view)
+{
+  const vtkIdType count = block->GetNumberOfPoints();
+  vtkCellArray* lines = block->GetLines();
+  for (vtkIdType cell = 0; cell < lines->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    lines->GetCellAtId(cell, size, ids);
+    for (vtkIdType i = 0; i < size; ++i)
+    {
+      if (ids[i] < 0 || ids[i] >= count)
+      {
+        throw Error("View '" + view.name + "' has a line that is not between its points.");
+      }
+      if (i > 0)
+      {
+        view.edges.push_back({ static_cast<int>(ids[i - 1]), static_cast<int>(ids[i]) });
+      }
+    }
+  }
+}
+
 void ReadTriangles(vtkPolyData* block, DisparityMap& map)
 {
   const vtkIdType count = block->GetNumberOfPoints();
@@ -214,6 +238,13 @@ vtkSmartPointer<vtkPolyData> BlockFromView(const View& view)
     vertices->InsertNextCell(1, &i);
   }
   block->SetVerts(vertices);
+  vtkNew<vtkCellArray> lines;
+  for (const auto& edge : view.edges)
+  {
+    const vtkIdType ids[2] = { edge[0], edge[1] };
+    lines->InsertNextCell(2, ids);
+  }
+  block->SetLines(lines);
   return block;
 }
 
@@ -269,6 +300,7 @@ View ViewFromBlock(vtkPolyData* block, const std::string& name)
   view.imageFile = ImageFileOf(block);
   view.camera = CameraFromBlock(block, name);
   ReadPoints(block, view);
+  ReadEdges(block, view);
   return view;
 }
 

@@ -30,6 +30,8 @@ namespace freespace
 /// | FieldData | CameraFromWorld  | double x12 |
 /// | FieldData | ImageSize        | int x2     |
 /// | FieldData | ImageFile        | string     |
+///
+/// Lines of a view are its edges: features that an image edge joins.
 
 /// The block of a view, with a vertex cell for each feature so that it can be rendered.
 VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> BlockFromView(const View& view);

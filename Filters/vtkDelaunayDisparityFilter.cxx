@@ -23,6 +23,7 @@ int vtkDelaunayDisparityFilter::RequestData(
   freespace::DelaunayDisparityOptions options;
   options.minimumDisparity = this->MinimumDisparity != 0;
   options.tolerance = this->Tolerance;
+  options.keepEdges = this->KeepEdges != 0;
   freespace::ContinueBackgroundOptions background;
   background.grazingAngle = this->GrazingAngle;
   background.views = this->RefutingViews;
@@ -77,6 +78,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "KeepEdges: " << this->KeepEdges << "\n";
   os << indent << "ContinueBackground: " << this->ContinueBackground << "\n";
   os << indent << "GrazingAngle: " << this->GrazingAngle << "\n";
   os << indent << "RefutingViews: " << this->RefutingViews << "\n";

@@ -75,6 +75,17 @@ public:
 
   ///@{
   /**
+   * Whether the triangulation keeps the lines of a view's block (edge chains), so that no triangle
+   * crosses an edge that the stereo saw. Lines that cross others are not kept. Off is the paper.
+   * Default off.
+   */
+  vtkSetMacro(KeepEdges, vtkTypeBool);
+  vtkGetMacro(KeepEdges, vtkTypeBool);
+  vtkBooleanMacro(KeepEdges, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Whether the background is continued below bridges that other views see through. Off is the paper.
    * Default on.
    */
@@ -144,6 +155,7 @@ protected:
 
   vtkTypeBool MinimumDisparity = 1;
   double Tolerance = 5e-4;
+  vtkTypeBool KeepEdges = 0;
   vtkTypeBool ContinueBackground = 1;
   double GrazingAngle = 70.0;
   int RefutingViews = 1;

@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "FeatureCloud.h"
 
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
@@ -19,6 +20,7 @@
 #include <numeric>
 #include <queue>
 #include <thread>
+#include <type_traits>
 
 namespace freespace
 {
@@ -39,10 +41,13 @@ struct FaceInfo
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>; // index of the point
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
-using Triangulation = CGAL::Delaunay_triangulation_2<Kernel,
+using PlainTriangulation = CGAL::Delaunay_triangulation_2<Kernel,
   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-using Face = Triangulation::Face_handle;
-using Vertex = Triangulation::Vertex_handle;
+// With edges that it must keep. Those that cross others would need new points: they are left out.
+using ConstrainedTriangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+  CGAL::Triangulation_data_structure_2<VertexBase,
+    CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
+  CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 // A world point as a view sees it.
 struct Sighting
@@ -108,8 +113,12 @@ double Cross(const Pixel& a, const Pixel& b, const Pixel& origin)
 }
 
 // The triangulated disparity surface of one view while it grows.
+template <typename Triangulation>
 class DisparitySurface
 {
+  using Face = typename Triangulation::Face_handle;
+  using Vertex = typename Triangulation::Vertex_handle;
+
 public:
   explicit DisparitySurface(const View& view)
     : Name(view.name)
@@ -117,6 +126,7 @@ public:
   }
 
   void TriangulateFeatures(const std::vector<Sighting>& features);
+  void KeepEdges(const std::vector<std::array<int, 2>>& edges);
   void AddCandidates(const std::vector<Sighting>& sightings);
   void EnforceMinimumDisparity(double tolerance);
   void Fill(DisparityMap& map) const;
@@ -142,34 +152,37 @@ private:
   void PutInto(Face face, int candidate);
   void Enqueue(Face face);
   void Insert(int candidate, Face face);
-  std::vector<int> TakeConflicting(const Pixel& pixel, Face face);
+  std::vector<int> TakeCandidates(const std::vector<Face>& faces);
   std::vector<Face> Star(Vertex center) const;
-  void Redistribute(const std::vector<int>& candidates, Vertex center);
+  void Redistribute(
+    const std::vector<int>& candidates, const std::vector<Face>& star, Vertex center);
 
   std::string Name;
-  std::vector<Sighting> Points; // of the triangulation, by the vertex' info
+  std::vector<Sighting> Points;  // of the triangulation, by the vertex' info
+  std::vector<Vertex> OfFeature; // where each feature is or was hidden
   std::vector<Candidate> Candidates;
   Triangulation Delaunay;
   std::priority_queue<Highest> Queue;
   double Tolerance = 0;
 };
 
-void DisparitySurface::TriangulateFeatures(const std::vector<Sighting>& features)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::TriangulateFeatures(const std::vector<Sighting>& features)
 {
   if (features.size() < 3)
   {
     throw Error("View '" + this->Name + "' has " + std::to_string(features.size()) +
       " usable features, but a disparity map needs at least three.");
   }
-  constexpr int hidden = -1;
   std::vector<Vertex> vertices(features.size());
-  std::vector<int> nearest(features.size(), hidden);
+  this->OfFeature.resize(features.size());
   Face hint;
   for (const std::size_t i : SpatialOrder(features))
   {
     const std::size_t before = this->Delaunay.number_of_vertices();
     const Vertex vertex = this->Delaunay.insert(features[i].pixel, hint);
     hint = vertex->face();
+    this->OfFeature[i] = vertex;
     const bool isNew = this->Delaunay.number_of_vertices() > before;
     if (isNew || features[i].disparity > features[vertex->info()].disparity)
     {
@@ -194,8 +207,31 @@ void DisparitySurface::TriangulateFeatures(const std::vector<Sighting>& features
   }
 }
 
+// Forces edges between features into the triangulation.
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::KeepEdges(const std::vector<std::array<int, 2>>& edges)
+{
+  if constexpr (std::is_same_v<Triangulation, ConstrainedTriangulation>)
+  {
+    for (const auto& [a, b] : edges)
+    {
+      if (this->OfFeature[a] != this->OfFeature[b])
+      {
+        try
+        {
+          this->Delaunay.insert_constraint(this->OfFeature[a], this->OfFeature[b]);
+        }
+        catch (const typename Triangulation::Intersection_of_constraints_exception&)
+        {
+        }
+      }
+    }
+  }
+}
+
 // The disparity of the triangle at a pixel inside it.
-double DisparitySurface::Disparity(Face face, const Pixel& pixel) const
+template <typename Triangulation>
+double DisparitySurface<Triangulation>::Disparity(Face face, const Pixel& pixel) const
 {
   double weighted = 0, sum = 0, greatest = 0;
   for (int i = 0; i < 3; ++i)
@@ -212,7 +248,8 @@ double DisparitySurface::Disparity(Face face, const Pixel& pixel) const
   return sum > 0 ? weighted / sum : greatest;
 }
 
-void DisparitySurface::PutInto(Face face, int candidate)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::PutInto(Face face, int candidate)
 {
   Candidate& point = this->Candidates[candidate];
   point.height = point.disparity - this->Disparity(face, point.pixel);
@@ -221,7 +258,8 @@ void DisparitySurface::PutInto(Face face, int candidate)
 }
 
 // Enters the triangle's highest candidate that is above the tolerance into the queue.
-void DisparitySurface::Enqueue(Face face)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::Enqueue(Face face)
 {
   Highest highest{ 0, -1, face, face->info().version };
   for (int c = face->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
@@ -243,13 +281,14 @@ void DisparitySurface::Enqueue(Face face)
 }
 
 // Only points over the triangulated region can stick out of it.
-void DisparitySurface::AddCandidates(const std::vector<Sighting>& sightings)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::AddCandidates(const std::vector<Sighting>& sightings)
 {
   std::vector<Face> faces(sightings.size());
   Face hint;
   for (const std::size_t i : SpatialOrder(sightings))
   {
-    Triangulation::Locate_type type;
+    typename Triangulation::Locate_type type;
     int index = 0;
     const Face face = this->Delaunay.locate(sightings[i].pixel, type, index, hint);
     hint = face;
@@ -268,15 +307,13 @@ void DisparitySurface::AddCandidates(const std::vector<Sighting>& sightings)
   }
 }
 
-// Takes the candidates out of the triangles that a point at the pixel will replace.
-std::vector<int> DisparitySurface::TakeConflicting(const Pixel& pixel, Face face)
+template <typename Triangulation>
+std::vector<int> DisparitySurface<Triangulation>::TakeCandidates(const std::vector<Face>& faces)
 {
-  std::vector<Face> conflicts;
-  this->Delaunay.get_conflicts(pixel, std::back_inserter(conflicts), face);
   std::vector<int> taken;
-  for (const Face conflict : conflicts)
+  for (const Face face : faces)
   {
-    FaceInfo& info = conflict->info();
+    FaceInfo& info = face->info();
     for (int c = info.firstCandidate; c >= 0; c = this->Candidates[c].next)
     {
       taken.push_back(c);
@@ -287,18 +324,17 @@ std::vector<int> DisparitySurface::TakeConflicting(const Pixel& pixel, Face face
   return taken;
 }
 
-// The finite triangles around a vertex, counter-clockwise.
-std::vector<Face> DisparitySurface::Star(Vertex center) const
+// The triangles around a vertex, counter-clockwise, with the infinite ones beyond the hull.
+template <typename Triangulation>
+std::vector<typename Triangulation::Face_handle> DisparitySurface<Triangulation>::Star(
+  Vertex center) const
 {
   std::vector<Face> star;
   auto face = this->Delaunay.incident_faces(center);
   const auto first = face;
   do
   {
-    if (!this->Delaunay.is_infinite(face))
-    {
-      star.push_back(face);
-    }
+    star.push_back(face);
   } while (++face != first);
   return star;
 }
@@ -306,13 +342,10 @@ std::vector<Face> DisparitySurface::Star(Vertex center) const
 // Gives candidates to the triangles around a new vertex. They fill the hole that its insertion
 // made, and each spans less than half a turn: the two edges at the vertex decide which of them a
 // point is in.
-void DisparitySurface::Redistribute(const std::vector<int>& candidates, Vertex center)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::Redistribute(
+  const std::vector<int>& candidates, const std::vector<Face>& star, Vertex center)
 {
-  const std::vector<Face> star = this->Star(center);
-  for (const Face face : star)
-  {
-    ++face->info().version;
-  }
   std::size_t guess = 0;
   for (const int candidate : candidates)
   {
@@ -337,40 +370,39 @@ void DisparitySurface::Redistribute(const std::vector<int>& candidates, Vertex c
   }
 }
 
-void DisparitySurface::Insert(int candidate, Face face)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
 {
   const Sighting& sighting = this->Candidates[candidate];
-  Triangulation::Locate_type type;
+  typename Triangulation::Locate_type type;
   int index = 0;
   face = this->Delaunay.locate(sighting.pixel, type, index, face);
-  std::vector<int> conflicting;
   Vertex vertex;
   if (type == Triangulation::VERTEX)
   {
     // It hides the point that is already there: the same triangles, but higher.
     vertex = face->vertex(index);
-    for (const Face around : this->Star(vertex))
-    {
-      for (int c = around->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
-      {
-        conflicting.push_back(c);
-      }
-      around->info().firstCandidate = -1;
-    }
     this->Points[vertex->info()] = sighting;
   }
   else
   {
-    conflicting = this->TakeConflicting(sighting.pixel, face);
     vertex = this->Delaunay.insert(sighting.pixel, type, face, index);
     vertex->info() = static_cast<int>(this->Points.size());
     this->Points.push_back(sighting);
   }
-  conflicting.erase(std::find(conflicting.begin(), conflicting.end(), candidate));
-  this->Redistribute(conflicting, vertex);
+  // All triangles that were in conflict with the point are now, in another shape, around it, and
+  // still hold their lists; on the hull, one may have become infinite.
+  std::vector<Face> star = this->Star(vertex);
+  std::vector<int> candidates = this->TakeCandidates(star);
+  candidates.erase(std::find(candidates.begin(), candidates.end(), candidate));
+  star.erase(std::remove_if(star.begin(), star.end(),
+               [this](Face around) { return this->Delaunay.is_infinite(around); }),
+    star.end());
+  this->Redistribute(candidates, star, vertex);
 }
 
-void DisparitySurface::EnforceMinimumDisparity(double tolerance)
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::EnforceMinimumDisparity(double tolerance)
 {
   this->Tolerance = tolerance;
   for (const Face face : this->Delaunay.finite_face_handles())
@@ -388,7 +420,8 @@ void DisparitySurface::EnforceMinimumDisparity(double tolerance)
   }
 }
 
-void DisparitySurface::Fill(DisparityMap& map) const
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::Fill(DisparityMap& map) const
 {
   for (const Sighting& sighting : this->Points)
   {
@@ -416,30 +449,50 @@ void DelaunayDisparityOptions::Check() const
 namespace
 {
 
-DisparityMap TriangulateOne(
+// The view's edges, between its features that could be sighted.
+std::vector<std::array<int, 2>> SightedEdges(const View& view, const std::vector<int>& sighted)
+{
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& [a, b] : view.edges)
+  {
+    if (sighted[a] >= 0 && sighted[b] >= 0)
+    {
+      edges.push_back({ sighted[a], sighted[b] });
+    }
+  }
+  return edges;
+}
+
+template <typename Triangulation>
+DisparityMap TriangulateWith(
   const View& view, int index, const FeatureCloud& cloud, const DelaunayDisparityOptions& options)
 {
   std::vector<Sighting> own, others;
+  std::vector<int> sighted(view.points.size(), -1);
   Sighting sighting;
-  for (const Eigen::Vector3d& point : view.points)
+  for (std::size_t i = 0; i < view.points.size(); ++i)
   {
-    if (Sight(view.camera, point, index, sighting))
+    if (Sight(view.camera, view.points[i], index, sighting))
     {
+      sighted[i] = static_cast<int>(own.size());
       own.push_back(sighting);
     }
   }
   if (options.minimumDisparity)
   {
-    cloud.VisitSeen(view.camera, [&](const FeatureCloud::Feature& feature) {
-      if (feature.sourceView != index
-        && Sight(view.camera, feature.point, feature.sourceView, sighting))
+    cloud.VisitSeen(view.camera,
+      [&](const FeatureCloud::Feature& feature)
       {
-        others.push_back(sighting);
-      }
-    });
+        if (feature.sourceView != index &&
+          Sight(view.camera, feature.point, feature.sourceView, sighting))
+        {
+          others.push_back(sighting);
+        }
+      });
   }
-  DisparitySurface surface(view);
+  DisparitySurface<Triangulation> surface(view);
   surface.TriangulateFeatures(own);
+  surface.KeepEdges(SightedEdges(view, sighted));
   if (options.minimumDisparity)
   {
     surface.AddCandidates(others);
@@ -451,6 +504,14 @@ DisparityMap TriangulateOne(
   map.camera = view.camera;
   surface.Fill(map);
   return map;
+}
+
+DisparityMap TriangulateOne(
+  const View& view, int index, const FeatureCloud& cloud, const DelaunayDisparityOptions& options)
+{
+  return options.keepEdges && !view.edges.empty()
+    ? TriangulateWith<ConstrainedTriangulation>(view, index, cloud, options)
+    : TriangulateWith<PlainTriangulation>(view, index, cloud, options);
 }
 
 }

@@ -20,6 +20,11 @@ struct DelaunayDisparityOptions
   /// the surface towards the camera.
   double tolerance = 5e-4;
 
+  /// Beyond the paper: whether the triangulation keeps the edges of the view (a constrained Delaunay
+  /// triangulation), so that no triangle crosses an edge that the stereo saw. Edges that cross others
+  /// are not kept.
+  bool keepEdges = false;
+
   /// Throws Error when a field is out of its range.
   void Check() const;
 };

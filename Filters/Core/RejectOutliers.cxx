@@ -219,12 +219,22 @@ std::vector<View> RejectOutliers(const std::vector<View>& views,
     }
     kept[v].points.clear();
     kept[v].imagePoints.clear();
+    kept[v].edges.clear();
+    std::vector<int> newIndex(views[v].points.size(), -1);
     for (std::size_t i = 0; i < views[v].points.size(); ++i)
     {
       if (accepted[v][i])
       {
+        newIndex[i] = static_cast<int>(kept[v].points.size());
         kept[v].points.push_back(views[v].points[i]);
         kept[v].imagePoints.push_back(views[v].imagePoints[i]);
+      }
+    }
+    for (const auto& [a, b] : views[v].edges)
+    {
+      if (newIndex[a] >= 0 && newIndex[b] >= 0)
+      {
+        kept[v].edges.push_back({ newIndex[a], newIndex[b] });
       }
     }
   }

@@ -20,6 +20,7 @@ struct View
   Camera camera;
   std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
   std::vector<Eigen::Vector2d> imagePoints; ///< where the reference image sees them, pixels
+  std::vector<std::array<int, 2>> edges;    ///< pairs of features that an image edge joins
 };
 
 /// What edge stereo knows about each feature of a view beside its place.

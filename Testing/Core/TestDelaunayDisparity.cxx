@@ -16,6 +16,7 @@
 #include <set>
 
 using namespace freespace;
+using Eigen::Vector2d;
 
 namespace
 {
@@ -302,6 +303,69 @@ TEST(DelaunayDisparity, IsTheDefinitionOnEdgesAndVertices)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ExpectDefinition(LatticeViews(seed), 0, 1e-6);
+  }
+}
+
+namespace
+{
+
+bool HasEdge(const DisparityMap& map, int a, int b)
+{
+  return std::any_of(map.triangles.begin(), map.triangles.end(),
+    [a, b](const std::array<int, 3>& t)
+    { return std::count(t.begin(), t.end(), a) && std::count(t.begin(), t.end(), b); });
+}
+
+}
+
+// Two features that are far apart along an edge, and a bridge that would cross it.
+TEST(DelaunayDisparity, KeptEdgesAreNotCrossed)
+{
+  std::vector<View> views(2, MakeView());
+  for (const Vector2d& pixel :
+    { Vector2d(100, 500), Vector2d(900, 500), Vector2d(500, 450), Vector2d(500, 560) })
+  {
+    AddFeature(views[0], pixel, pixel.y() == 500 ? 1 : 2);
+  }
+  views[0].edges = { { 0, 1 } };
+  DelaunayDisparityOptions options;
+  EXPECT_TRUE(HasEdge(TriangulateView(views, 0, options), 2, 3)) << "the bridge";
+  options.keepEdges = true;
+  const DisparityMap kept = TriangulateView(views, 0, options);
+  EXPECT_TRUE(HasEdge(kept, 0, 1));
+  EXPECT_FALSE(HasEdge(kept, 2, 3));
+
+  views[0].edges = { { 2, 3 }, { 0, 1 }, { 0, 0 } }; // the second crosses the first
+  EXPECT_TRUE(HasEdge(TriangulateView(views, 0, options), 2, 3));
+}
+
+// Inserting into a constrained triangulation must keep hold of every point: nothing sticks out, and the
+// edges are still there, perhaps in pieces.
+TEST(DelaunayDisparity, KeptEdgesUnderTheConstraint)
+{
+  for (unsigned int seed = 0; seed < 100; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<View> views = seed % 2 ? LatticeViews(seed) : RandomViews(seed);
+    const int count = static_cast<int>(views[0].points.size());
+    for (int i = 0; i + 1 < count; i += 3)
+    {
+      views[0].edges.push_back({ i, i + 1 });
+    }
+    DelaunayDisparityOptions options;
+    options.keepEdges = true;
+    options.tolerance = 1e-6;
+    const DisparityMap map = TriangulateView(views, 0, options);
+    for (const View& view : views)
+    {
+      for (const Eigen::Vector3d& point : view.points)
+      {
+        if (const auto disparity = DisparityAt(map, map.camera.Project(point)))
+        {
+          EXPECT_LE(1 / map.camera.Depth(point), *disparity * (1 + 1e-5));
+        }
+      }
+    }
   }
 }
 

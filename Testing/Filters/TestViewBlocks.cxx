@@ -6,6 +6,7 @@
 #include "vtkViewBlocksReader.h"
 #include "vtkViewBlocksWriter.h"
 
+#include <vtkCellArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
@@ -149,4 +150,23 @@ TEST(ViewBlocks, MissingArrayNamesTheView)
     EXPECT_NE(std::string(error.what()).find("map1"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("ImagePoint"), std::string::npos);
   }
+}
+
+TEST(ViewBlocks, LinesAreEdges)
+{
+  View view = MakeMap(0);
+  view.edges = { { 0, 1 }, { 2, 1 } };
+  auto block = BlockFromView(view);
+  EXPECT_EQ(ViewFromBlock(block, "view").edges, view.edges);
+
+  vtkNew<vtkCellArray> chain;
+  const vtkIdType ids[3] = { 2, 0, 1 };
+  chain->InsertNextCell(3, ids);
+  block->SetLines(chain);
+  EXPECT_EQ(ViewFromBlock(block, "view").edges,
+    (std::vector<std::array<int, 2>>{ { 2, 0 }, { 0, 1 } }));
+
+  const vtkIdType wrong[2] = { 0, 3 };
+  chain->InsertNextCell(2, wrong);
+  EXPECT_THROW(ViewFromBlock(block, "view"), Error);
 }
