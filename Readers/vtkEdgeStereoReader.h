@@ -5,7 +5,8 @@
  *
  * Reads a scene.json, finds the edges of its images with sub-pixel precision, matches them over
  * each cluster of images and gives the features that the cluster's reference image shows: section 3
- * of the paper. Each feature is an edge token that was seen in three images at least; its depth is
+ * of the paper. Each feature is an edge token that was seen in three images at least (a few, in two,
+ * where they close a gap of an edge that was seen in three); its depth is
  * from all of them together, its position in the reference image (ImagePoint) and its world
  * position lie on one ray. An edge nearly parallel to a baseline cannot be matched along it,
  * therefore clusters have best one horizontal and one vertical triplet. A silhouette is matched by

@@ -10,6 +10,8 @@ namespace freespace
 namespace
 {
 
+constexpr double LongestGap = 12; // within a run, pixels
+
 class RunMatcher
 {
 public:
@@ -96,7 +98,6 @@ private:
   // The tokens [begin, end) of a chain that have a hypothesis, in pieces without a jump.
   void SplitIntoRuns(int begin, int end, std::vector<std::vector<int>>& runs) const
   {
-    constexpr double gap = 12; // pixels
     const std::size_t before = runs.size();
     for (int i = begin; i < end; ++i)
     {
@@ -109,7 +110,7 @@ private:
       {
         const int last = runs.back().back();
         const double step = this->Step(last, i);
-        continues = step <= gap &&
+        continues = step <= LongestGap &&
           DisparityJump(this->Chosen[last], this->Chosen[i], step, this->Baseline, this->Options) <=
             1;
       }
@@ -224,24 +225,33 @@ private:
     return limit * std::min(1.0, 1 / (hypothesis.sigma * this->Baseline));
   }
 
+  // Turns what fits into matches, in pieces without a gap.
   void MatchRun(const std::vector<int>& run, double limit)
   {
-    std::vector<int> kept;
+    std::vector<int> piece;
     for (int i : run)
     {
-      const bool fits = this->Residual[i] <= this->LimitOf(this->Chosen[i], limit) &&
-        this->Matches[i].disparity > 0;
-      if (fits && this->MeanCost(this->Chosen[i]) <= this->Options.maximumCost)
-      {
-        kept.push_back(i);
-      }
-      else
+      const EdgeHypothesis& hypothesis = this->Chosen[i];
+      const bool fits = this->Residual[i] <= this->LimitOf(hypothesis, limit) &&
+        this->Matches[i].disparity > 0 && this->MeanCost(hypothesis) <= this->Options.maximumCost;
+      if (!fits)
       {
         this->Matches[i] = EdgeMatch();
+        continue;
       }
+      if (!piece.empty() && this->Step(piece.back(), i) > LongestGap)
+      {
+        this->FinishPiece(piece);
+      }
+      piece.push_back(i);
     }
-    const bool enough = static_cast<int>(kept.size()) >= this->Options.minimumRun;
-    for (int i : kept)
+    this->FinishPiece(piece);
+  }
+
+  void FinishPiece(std::vector<int>& piece)
+  {
+    const bool enough = static_cast<int>(piece.size()) >= this->Options.minimumRun;
+    for (int i : piece)
     {
       if (enough)
       {
@@ -253,6 +263,7 @@ private:
       }
     }
     this->NumberOfRuns += enough;
+    piece.clear();
   }
 
   double MeanCost(const EdgeHypothesis& hypothesis) const

@@ -40,7 +40,8 @@ struct ImageEdges
 /// What became of a token of the reference image.
 struct EdgeMatch
 {
-  int images = 0;       ///< besides the reference that show it: 0 when it has no match, else >= 2
+  int images = 0;       ///< besides the reference that show it: 0 when it has no match, 1 where it
+                        ///< closes a short gap between confirmed ones, else >= 2
   double disparity = 0; ///< 1 / depth in the reference camera, from all rays together
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,
     ///< moved across the edge by the little that lets all rays meet best
