@@ -150,10 +150,22 @@ private:
     Fit fit;
     cv::Mat matrix = this->FirstGuess();
     cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
-    cv::calibrateCamera(world, seen, this->Size, matrix, distortion, fit.rotations,
-      fit.translations, Flags(coefficients, this->Options.squarePixels),
-      cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-12));
+    try
+    {
+      cv::calibrateCamera(world, seen, this->Size, matrix, distortion, fit.rotations,
+        fit.translations, Flags(coefficients, this->Options.squarePixels),
+        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-12));
+    }
+    catch (const cv::Exception& error)
+    {
+      throw Error(
+        "Cannot calibrate: the pictures of the board are degenerate (" + error.err + ").");
+    }
     fit.matrix = cv::Matx33d(matrix);
+    if (!cv::checkRange(matrix) || !cv::checkRange(distortion) || !(fit.matrix(0, 0) > 0))
+    {
+      throw Error("Cannot calibrate: the pictures show the board from too few directions.");
+    }
     fit.distortion.assign(distortion.ptr<double>(), distortion.ptr<double>() + 5);
     fit.parameters = (this->Options.squarePixels ? 3 : 4) + coefficients;
     Measure(world, seen, fit);
@@ -489,9 +501,30 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
     throw Error("Cannot calibrate: the board was found in none of " + std::to_string(files.size()) +
       " pictures.");
   }
+  // Where one camera cannot be calibrated, its pictures are left out; it is an error where none can.
+  std::string fault;
+  std::size_t calibrated = 0;
   for (const auto& camera : cameras)
   {
-    CameraCalibration(camera.second, options, parallelFor).Run();
+    try
+    {
+      CameraCalibration(camera.second, options, parallelFor).Run();
+      ++calibrated;
+    }
+    catch (const Error& error)
+    {
+      fault = error.what();
+      for (BoardPicture* picture : camera.second)
+      {
+        picture->used = false;
+        picture->reason =
+          picture->reason.empty() ? "its camera could not be calibrated" : picture->reason;
+      }
+    }
+  }
+  if (calibrated == 0)
+  {
+    throw Error(fault);
   }
   double squares = 0;
   std::size_t corners = 0;

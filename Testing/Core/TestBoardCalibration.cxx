@@ -293,6 +293,47 @@ TEST(BoardCalibration, TooFewPictures)
   ExpectError([&]() { Calibrate({}, charuco); }, { "none of 0" });
 }
 
+// Two pictures of another camera do not spoil the others.
+TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  std::vector<std::string> files = RenderAll(folder, charuco, truth, false);
+  for (int i = 0; i < 2; ++i)
+  {
+    cv::Mat larger;
+    cv::resize(cv::imread(files[i], cv::IMREAD_GRAYSCALE), larger, {}, 1.5, 1.5);
+    files.push_back(folder.Path("larger" + std::to_string(i) + ".png"));
+    cv::imwrite(files.back(), larger);
+  }
+  BoardCalibration calibration = Calibrate(files, charuco);
+  for (std::size_t i = truth.size(); i < files.size(); ++i)
+  {
+    EXPECT_FALSE(calibration.pictures[i].used);
+    EXPECT_FALSE(calibration.pictures[i].reason.empty());
+  }
+  calibration.pictures.resize(truth.size());
+  ExpectCameras(calibration, truth);
+}
+
+// The same picture again and again tells nothing more: a camera or an error, but no crash.
+TEST(BoardCalibration, OnePictureThreeTimes)
+{
+  TemporaryFolder folder;
+  std::vector<CalibratedImage> one = Cameras({});
+  one.resize(1);
+  const std::string file = RenderAll(folder, charuco, one, false).front();
+  try
+  {
+    const BoardCalibration calibration = Calibrate({ file, file, file }, charuco);
+    EXPECT_TRUE(std::isfinite(calibration.error));
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("calibrate"), std::string::npos);
+  }
+}
+
 TEST(BoardCalibration, PictureThatIsMissingOrNone)
 {
   TemporaryFolder folder;
