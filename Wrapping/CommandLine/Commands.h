@@ -20,6 +20,7 @@ void AddContourCommand(CLI::App& program, Session& session);
 void AddQueryCommand(CLI::App& program, Session& session);
 void AddRenderCommand(CLI::App& program, Session& session);
 void AddTextureCommand(CLI::App& program, Session& session);
+void AddOccupancyCommand(CLI::App& program, Session& session);
 void AddViewCommand(CLI::App& program, Session& session);
 
 }

@@ -73,6 +73,7 @@ int Run(int argc, char* argv[])
   freespace::AddQueryCommand(program, session);
   freespace::AddRenderCommand(program, session);
   freespace::AddTextureCommand(program, session);
+  freespace::AddOccupancyCommand(program, session);
   freespace::AddViewCommand(program, session);
   for (CLI::App* command : program.get_subcommands({}))
   {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands.h"
+
+#include "Session.h"
+#include "Stages.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkOccupancyMapWriter.h>
+
+#include <memory>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string maps;
+  std::string output;
+  double resolution = 0;
+  double hullMargin = 0.01;
+  int minimumViews = 1;
+};
+
+}
+
+void AddOccupancyCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("occupancy", "Write free, occupied and unknown space as an OctoMap");
+  command->add_option("maps", settings->maps, "The disparity maps")
+    ->required()
+    ->type_name("MAPS.vtm");
+  command->add_option("-o,--output", settings->output, "The OctoMap to write (.bt or .ot)")
+    ->required()
+    ->type_name("MAP.bt");
+  command
+    ->add_option("--resolution", settings->resolution,
+      "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str();
+  command
+    ->add_option("--hull-margin", settings->hullMargin,
+      "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
+    ->check(CLI::NonNegativeNumber)
+    ->capture_default_str();
+  command->add_option("--minimum-views", settings->minimumViews, "So many views make a point free")
+    ->check(CLI::PositiveNumber)
+    ->capture_default_str();
+  command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
+  command->callback(
+    [settings, &session]()
+    {
+      const auto maps = ReadViews(session, settings->maps);
+      vtkNew<vtkOccupancyMapWriter> writer;
+      writer->SetInputDataObject(maps);
+      writer->SetFileName(settings->output);
+      writer->SetResolution(settings->resolution);
+      writer->SetHullMargin(settings->hullMargin);
+      writer->SetMinimumViews(settings->minimumViews);
+      session.Write(writer);
+    });
+}
+
+}
