@@ -21,6 +21,9 @@
  * | View       | int           | index of the view that carved the triangle, -1 for the hull     |
  * | Kind       | unsigned char | 0 a feature triangle, 1 a silhouette wall, 2 hull or the bounds |
  *
+ * Silhouette walls stand on the border of a view's map, and where a triangle that the view sees
+ * edge-on (above 85 degrees) spans a jump in depth, from an occluding edge to what lies behind.
+ *
  * The arrays are there for a vtkFreespaceUnion only. Without a function, with bounds that are not a
  * finite box, or with a setting out of its range, the filter tells an error and its output is
  * empty. A function without any matter is no error: the output is empty. So it is after an abort.

@@ -285,7 +285,9 @@ SurfaceLabel FreespaceUnion::LabelOfView(
   if (sample.triangle >= 0 &&
     std::abs(sample.value) <= step * sample.gradient.norm() * towardsFree.norm())
   {
-    return { view, SurfaceKind::Feature, sample.gradient.normalized() };
+    const bool isJump = opener.IsEdgeOn(crossing, sample.gradient);
+    return { view, isJump ? SurfaceKind::Wall : SurfaceKind::Feature,
+      sample.gradient.normalized() };
   }
   const Vector3d normal =
     opener.WallNormal(crossing + step * towardsFree, crossing - step * towardsFree);
@@ -321,12 +323,11 @@ SurfaceLabel FreespaceUnion::Label(
     }
     greatest = front.value;
     label.view = view;
-    label.kind = behind.triangle < 0 ? SurfaceKind::Wall : SurfaceKind::Feature;
-    label.normal = front.gradient.normalized();
-    if (label.kind == SurfaceKind::Wall)
-    {
-      label.normal = this->Views[view]->WallNormal(free, matter);
-    }
+    const bool isBorder = behind.triangle < 0;
+    const bool isJump = this->Views[view]->IsEdgeOn(free, front.gradient);
+    label.kind = isBorder || isJump ? SurfaceKind::Wall : SurfaceKind::Feature;
+    label.normal =
+      isBorder ? this->Views[view]->WallNormal(free, matter) : front.gradient.normalized();
   }
   return label;
 }

@@ -18,6 +18,7 @@ constexpr float Infinity = std::numeric_limits<float>::infinity();
 constexpr int LongestWalk = 48;
 constexpr std::int64_t MostCells = 1 << 23;
 constexpr double CellsPerTriangle = 3.0;
+constexpr double EdgeOnCosine = 0.0872; // of 85 degrees
 
 // Relative room for the rounding between a cell's bounds and a triangle's disparity.
 constexpr double Slack = 1e-6;
@@ -56,6 +57,7 @@ void Join(ViewFreespace::Intervals& intervals)
 ViewFreespace::ViewFreespace(const DisparityMap& map)
 {
   this->RasterFromWorld << map.camera.K * map.camera.R, map.camera.K * map.camera.t;
+  this->Eye = map.camera.Center();
   this->AddTriangles(map);
   if (this->Triangles.empty())
   {
@@ -640,6 +642,12 @@ void ViewFreespace::AddFreeInCell(int column, int row, const Vector3d& first, co
       intervals.emplace_back(from, to);
     }
   }
+}
+
+bool ViewFreespace::IsEdgeOn(const Vector3d& point, const Vector3d& normal) const
+{
+  const Vector3d ray = point - this->Eye;
+  return std::abs(ray.dot(normal)) < EdgeOnCosine * ray.norm() * normal.norm();
 }
 
 ViewFreespace::Footprint ViewFreespace::FootprintOf(const Eigen::AlignedBox3d& box) const

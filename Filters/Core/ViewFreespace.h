@@ -52,6 +52,10 @@ public:
   void FreeIntervals(
     const Eigen::Vector3d& first, const Eigen::Vector3d& last, Intervals& intervals) const;
 
+  /// Whether the view sees a surface of this normal so nearly edge-on (above 85 degrees) that it must
+  /// be a jump in depth: a triangle from an occluding edge to what lies behind it, which nobody saw.
+  bool IsEdgeOn(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+
   /// Free: the view says so for all the box; Matter: for no point of it. Conservative.
   BoxContent Classify(const Eigen::AlignedBox3d& box) const;
 
@@ -137,6 +141,7 @@ private:
   void MakePyramid();
 
   Eigen::Matrix<double, 3, 4> RasterFromWorld; ///< homogeneous; its last row is the depth
+  Eigen::Vector3d Eye;
   std::vector<Corner> Corners;
   std::vector<Triangle> Triangles;
   int Width = 0, Height = 0; ///< of the raster

@@ -318,6 +318,44 @@ TEST(ViewFreespace, IntervalsOfSegmentsAgreeWithTheirPoints)
   }
 }
 
+TEST(ViewFreespace, ATriangleSeenEdgeOnIsAJump)
+{
+  // Two steps of a stair and the riser between them, which the view sees but for a hair edge-on.
+  DisparityMap map;
+  map.camera = LookingAt({ 0, 0, 0 }, { 0, 0, 1 });
+  for (double x : { 30.0, 50.0, 50.2, 70.0 })
+  {
+    for (double y : { 20.0, 60.0 })
+    {
+      map.imagePoints.push_back({ x, y });
+      map.points.push_back(map.camera.Unproject({ x, y }, x <= 50 ? 2.0 : 3.0));
+    }
+  }
+  for (int i : { 0, 2, 4 })
+  {
+    map.triangles.push_back({ i, i + 2, i + 1 });
+    map.triangles.push_back({ i + 2, i + 3, i + 1 });
+  }
+  const FreespaceUnion phi({ map }, {});
+  const auto label = [&](const Vector2d& pixel, double depth)
+  {
+    SurfaceLabel found;
+    double place;
+    const Vector3d matter = map.camera.Unproject(pixel, depth + 0.1);
+    const Vector3d free = map.camera.Unproject(pixel, depth - 0.1);
+    EXPECT_TRUE(phi.Crossing(matter, free, phi.Root(), place, found));
+    EXPECT_NEAR(place, 0.5, 1e-9);
+    EXPECT_EQ(
+      phi.Label(matter + 0.501 * (free - matter), matter + 0.499 * (free - matter), phi.Root())
+        .kind,
+      found.kind);
+    return found.kind;
+  };
+  EXPECT_EQ(label({ 40, 40 }, 2.0), SurfaceKind::Feature);
+  EXPECT_EQ(label({ 60, 40 }, 3.0), SurfaceKind::Feature);
+  EXPECT_EQ(label({ 50.1, 40 }, 2.4), SurfaceKind::Wall);
+}
+
 TEST(FreespaceUnion, AwkwardInput)
 {
   const FreespaceUnion empty({}, {});
