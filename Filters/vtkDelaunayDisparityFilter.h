@@ -67,7 +67,7 @@ public:
   /**
    * How far a point of another view may stick out of a view's surface, as a fraction of its
    * disparity (to first order: of its depth). 0 is the paper; it draws the surface towards the
-   * camera by the noise of the features. Default 0.0005.
+   * camera by the noise of the features. Default 0.0002.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -154,7 +154,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   vtkTypeBool MinimumDisparity = 1;
-  double Tolerance = 5e-4;
+  double Tolerance = 2e-4;
   vtkTypeBool KeepEdges = 0;
   vtkTypeBool ContinueBackground = 1;
   double GrazingAngle = 70.0;

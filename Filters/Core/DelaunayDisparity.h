@@ -18,7 +18,7 @@ struct DelaunayDisparityOptions
   /// How far a point may stick out, as a fraction of its own disparity (that is, to first order, of
   /// its depth); >= 0. The paper's 0 inserts every point that noise lifts by a hair, which draws
   /// the surface towards the camera.
-  double tolerance = 5e-4;
+  double tolerance = 2e-4;
 
   /// Beyond the paper: whether the triangulation keeps the edges of the view (a constrained Delaunay
   /// triangulation), so that no triangle crosses an edge that the stereo saw. Edges that cross others

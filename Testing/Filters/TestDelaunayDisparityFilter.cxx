@@ -114,7 +114,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   std::ostringstream text;
   filter->Print(text);
   EXPECT_NE(text.str().find("MinimumDisparity: 0"), std::string::npos);
-  EXPECT_NE(text.str().find("Tolerance: 0.0005"), std::string::npos);
+  EXPECT_NE(text.str().find("Tolerance: 0.0002"), std::string::npos);
 }
 
 TEST(DelaunayDisparityFilter, OutliersAndUntrustedTrianglesAreLeftOut)

@@ -41,7 +41,7 @@ public:
 private:
   double SupportRadius = 4;
   int SupportNeighbors = 0;
-  double Tolerance = 0.0005;
+  double Tolerance = 0.0002;
   std::string Background = "auto";
 };
 
