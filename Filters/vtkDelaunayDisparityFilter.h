@@ -105,7 +105,7 @@ public:
 
   ///@{
   /**
-   * How many other views must see through a bridge. Default 1.
+   * How many other views must see through a bridge; one alone is wrong too often. Default 2.
    */
   vtkSetMacro(RefutingViews, int);
   vtkGetMacro(RefutingViews, int);
@@ -158,7 +158,7 @@ protected:
   vtkTypeBool KeepEdges = 0;
   vtkTypeBool ContinueBackground = 1;
   double GrazingAngle = 70.0;
-  int RefutingViews = 1;
+  int RefutingViews = 2;
   int SupportingNeighbors = 2;
   int SeeThroughViews = 0;
   double LongestEdge = 0.0;

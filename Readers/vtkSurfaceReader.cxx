@@ -16,6 +16,8 @@
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 vtkStandardNewMacro(vtkSurfaceReader);
@@ -40,7 +42,9 @@ vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& fileName)
 
 vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
 {
-  const std::string ending = std::filesystem::path(fileName).extension().string();
+  std::string ending = std::filesystem::path(fileName).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".ply")
   {
     freespace::CheckWholePLY(fileName);

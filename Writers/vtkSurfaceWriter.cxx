@@ -90,11 +90,20 @@ void vtkSurfaceWriter::WriteData()
   {
     if (!CanWriteFile(this->FileName))
     {
-      throw freespace::Error("Cannot write '" + this->FileName
-        + "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
+      throw freespace::Error("Cannot write '" + this->FileName +
+        "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
+    }
+    if (!surface || surface->GetNumberOfCells() == 0)
+    {
+      throw freespace::Error("Cannot write " + this->FileName + ": the surface is empty.");
     }
     freespace::AtomicOutput target(this->FileName);
-    WriteByEnding(surface, LowerCaseEnding(this->FileName), target.Path());
+    // VTK's PLY writer appends its own ending to any but ".ply".
+    const std::string ending = LowerCaseEnding(this->FileName);
+    const std::filesystem::path written =
+      std::filesystem::path(target.Path()).replace_extension(ending);
+    WriteByEnding(surface, ending, written.string());
+    std::filesystem::rename(written, target.Path());
     target.Commit();
   }
   catch (const std::exception& error)

@@ -29,4 +29,6 @@ def main(scene, out, cells=256):
 
 
 if __name__ == '__main__':
+    if len(sys.argv) not in (3, 4):
+        sys.exit(__doc__)
     sys.exit(main(*sys.argv[1:]))

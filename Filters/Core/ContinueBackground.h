@@ -17,8 +17,9 @@ struct ContinueBackgroundOptions
   /// A bridge is seen at this angle to its normal or more, degrees; in [0, 90).
   double grazingAngle = 70.0;
 
-  /// So many other views must see through a bridge to refute it; >= 1.
-  int views = 1;
+  /// So many other views must see through a bridge to refute it; >= 1. One alone is wrong too often:
+  /// its word takes holes out of faces that are seen grazingly.
+  int views = 2;
 
   /// Points of other views so close to the near side of a bridge, pixels, belong to the edge that it
   /// springs from and do not speak for matter under it; >= 0.

@@ -58,6 +58,7 @@ class TestUsage(unittest.TestCase):
         for arguments in ((), ('stereo', '--no-such-option'), ('no-such-command',)):
             with self.subTest(arguments=arguments):
                 result = run(*arguments)
+                self.assertLess(len(result.stderr), 300)
                 self.assertNotEqual(result.returncode, 0)
                 self.assertTrue(result.stderr.startswith('freespace: '), result.stderr)
 
@@ -84,10 +85,18 @@ class TestStages(WithFolder):
         self.succeed('--config', 'run.ini')
         self.assertEqual((self.folder / 'a.ply').read_bytes(), first)
 
+    def test_the_command_line_goes_before_the_config(self):
+        scene = self.small_scene()
+        self.succeed('--save-config', 'run.ini', 'stereo', scene, '-o', 'a.vtm')
+        quiet = self.succeed('--quiet', '--config', 'run.ini', 'stereo', scene, '-o', 'b.vtm')
+        self.assertEqual(quiet.stderr, '')
+        self.assertTrue((self.folder / 'b.vtm').exists())
+        self.succeed('--config', 'run.ini', 'triangulate', 'a.vtm', '-o', 'maps.vtm')   # of another command
+
     def test_every_format(self):
         self.succeed('stereo', self.small_scene(), '-o', 'features.vtm')
         self.succeed('triangulate', 'features.vtm', '-o', 'maps.vtm')
-        for ending in ('ply', 'stl', 'obj', 'vtp'):
+        for ending in ('ply', 'stl', 'obj', 'vtp', 'PLY'):
             self.succeed('contour', 'maps.vtm', '-o', f'mesh.{ending}', '--cells', 24)
             self.succeed('render', f'mesh.{ending}', '-o', f'{ending}.png')
 
@@ -116,6 +125,28 @@ class TestBadInput(WithFolder):
 
     def stereo_fails(self, mentions, scene):
         self.expect_error(mentions, 'stereo', scene, '-o', 'features.vtm')
+
+    def test_config_that_is_none(self):
+        for text, mentions in (('', 'run.ini'), ('[reconstruct]\nbogus=1\n', 'bogus')):
+            with self.subTest(text=text):
+                (self.folder / 'run.ini').write_text(text)
+                self.expect_error(mentions, '--config', 'run.ini')
+
+    def test_unknown_command(self):
+        self.expect_error('foo', 'foo')
+
+    def test_numbers_that_are_none(self):
+        scene = self.small_scene()
+        for option in ('--min-depth', '--tolerance', '--longest-edge'):
+            for value in ('nan', 'inf', '-1', 'x'):
+                with self.subTest(option=option, value=value):
+                    self.expect_error(option, 'reconstruct', scene, '-o', 'mesh.ply', option, value)
+
+    def test_picture_that_cannot_be_written(self):
+        scene = self.small_scene()
+        for picture in ('mesh.jpg', 'nowhere/mesh.png'):
+            with self.subTest(picture=picture):
+                self.expect_error(picture, 'reconstruct', scene, '-o', 'mesh.ply', '--picture', picture)
 
     def test_missing_scene(self):
         self.stereo_fails('none.json', 'none.json')

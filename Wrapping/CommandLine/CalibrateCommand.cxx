@@ -84,7 +84,7 @@ void AddCalibrateCommand(CLI::App& program, Session& session)
     "  freespace calibrate images/*.jpg --board "
     "charuco:15x15:0.03:0.0225:DICT_5X5_250 -o cameras\n"
     "  freespace reconstruct cameras/scene.json -o mesh.ply");
-  command->callback([settings, &session]() { Calibrate(session, *settings); });
+  command->callback(session.Later([settings, &session]() { Calibrate(session, *settings); }));
 }
 
 }

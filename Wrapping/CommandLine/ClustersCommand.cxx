@@ -86,7 +86,7 @@ void AddClustersCommand(CLI::App& program, Session& session)
   AddOptions(*command, *settings);
   command->footer("Example:\n  freespace clusters scene.json -o scene-with-clusters.json\n"
                   "  freespace clusters colmap/sparse/0 --images colmap/images -o scene.json");
-  command->callback([settings, &session]() { ProposeClusters(session, *settings); });
+  command->callback(session.Later([settings, &session]() { ProposeClusters(session, *settings); }));
 }
 
 }

@@ -37,13 +37,13 @@ void AddContourCommand(CLI::App& program, Session& session)
     ->type_name("MESH.ply");
   settings->contour.AddOptions(*command);
   command->footer("Example:\n  freespace contour maps.vtm -o mesh.ply --cells 512");
-  command->callback(
+  command->callback(session.Later(
     [settings, &session]()
     {
       CheckSurfaceName(settings->output);
       const auto maps = ReadViews(session, settings->maps);
       WriteSurface(session, settings->contour.Run(session, maps), settings->output);
-    });
+    }));
 }
 
 }

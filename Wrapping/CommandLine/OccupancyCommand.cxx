@@ -52,7 +52,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
   command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
-  command->callback(
+  command->callback(session.Later(
     [settings, &session]()
     {
       const auto maps = ReadViews(session, settings->maps);
@@ -63,7 +63,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetHullMargin(settings->hullMargin);
       writer->SetMinimumViews(settings->minimumViews);
       session.Write(writer);
-    });
+    }));
 }
 
 }

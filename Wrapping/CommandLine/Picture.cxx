@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "Session.h"
+#include "Stages.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -13,13 +14,19 @@
 namespace freespace
 {
 
-void WritePicture(
-  Session& session, vtkPolyData* surface, vtkPolyData* view, const std::string& fileName)
+void CheckPictureName(const std::string& fileName)
 {
+  CheckOutputFolder(fileName);
   if (std::filesystem::path(fileName).extension() != ".png")
   {
     throw Error("Cannot write '" + fileName + "': the name of a picture ends in .png.");
   }
+}
+
+void WritePicture(
+  Session& session, vtkPolyData* surface, vtkPolyData* view, const std::string& fileName)
+{
+  CheckPictureName(fileName);
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputDataObject(surface);
   if (view)
@@ -29,6 +36,7 @@ void WritePicture(
   session.Run(picture, "render");
   picture->WritePNG(fileName);
   session.ThrowIfFailed();
+  session.Tell("wrote " + fileName);
 }
 
 }

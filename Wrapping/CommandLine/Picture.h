@@ -11,6 +11,9 @@ namespace freespace
 
 class Session;
 
+/// Throws Error unless a picture can be written under that name.
+void CheckPictureName(const std::string& fileName);
+
 /// Writes a picture of a surface as PNG, from the camera of a view's block or, where that is nullptr,
 /// obliquely from above. Throws Error when that fails.
 void WritePicture(

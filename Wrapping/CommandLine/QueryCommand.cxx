@@ -136,7 +136,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
   command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv");
-  command->callback(
+  command->callback(session.Later(
     [settings, &session]()
     {
       if (settings->points.empty() && settings->segments.empty())
@@ -153,7 +153,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
       }
       settings->points.empty() ? TellSegments(phi, settings->segments)
                                : TellPoints(phi, settings->points);
-    });
+    }));
 }
 
 }

@@ -72,6 +72,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
 void Reconstruct(Session& session, const Settings& settings)
 {
   CheckSurfaceName(settings.output);
+  if (!settings.picture.empty())
+  {
+    CheckPictureName(settings.picture);
+  }
   const auto features = FindFeatures(session, settings);
   const auto maps = settings.triangulate.Run(session, features);
   const auto surface = settings.contour.Run(session, maps);
@@ -93,7 +97,7 @@ void AddReconstructCommand(CLI::App& program, Session& session)
   command->footer("Example:\n"
                   "  freespace reconstruct scene.json -o mesh.ply --cells 256 --picture mesh.png\n"
                   "  freespace reconstruct colmap/sparse/0 -o mesh.ply");
-  command->callback([settings, &session]() { Reconstruct(session, *settings); });
+  command->callback(session.Later([settings, &session]() { Reconstruct(session, *settings); }));
 }
 
 }

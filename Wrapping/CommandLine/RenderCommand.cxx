@@ -81,7 +81,7 @@ void AddRenderCommand(CLI::App& program, Session& session)
   command->footer("Examples:\n"
                   "  freespace render mesh.ply -o mesh.png\n"
                   "  freespace render mesh.ply -o mesh.png --scene scene.json --view c.jpg");
-  command->callback([settings, &session]() { Render(session, *settings); });
+  command->callback(session.Later([settings, &session]() { Render(session, *settings); }));
 }
 
 }

@@ -51,7 +51,7 @@ ErrorCollector* Collector()
 
 void Session::AddOptions(CLI::App& program)
 {
-  program.add_flag("-q,--quiet", this->Quiet, "Print nothing but errors");
+  program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
   program.add_option("--threads", this->Threads, "Threads to use; 0 means all cores")
     ->check(CLI::Range(0, 1024))
     ->capture_default_str();
@@ -64,6 +64,17 @@ void Session::Begin()
   vtkSMPTools::Initialize(this->Threads);
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
+}
+
+std::function<void()> Session::Later(std::function<void()> action)
+{
+  return [this, action]() { this->Action = action; };
+}
+
+void Session::Do()
+{
+  this->Begin();
+  this->Action();
 }
 
 void Session::Run(vtkAlgorithm* algorithm, const std::string& stage)

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <string>
 
 class vtkAlgorithm;
@@ -20,8 +21,12 @@ public:
   /// Adds the shared options to the program.
   void AddOptions(CLI::App& program);
 
-  /// To be called once the command line is read.
-  void Begin();
+  /// What a command does, to be done once the command line and the config file are read whole: CLI11
+  /// calls back for a section of the config file before it has read the rest.
+  std::function<void()> Later(std::function<void()> action);
+
+  /// Does what the command was to do.
+  void Do();
 
   /// Updates the algorithm under a stage's name. Throws Error with what the first error said.
   void Run(vtkAlgorithm* algorithm, const std::string& stage);
@@ -35,8 +40,12 @@ public:
   /// A line of the log, not shown when quiet.
   void Tell(const std::string& line) const;
 
+private:
+  void Begin();
+
   bool Quiet = false;
   int Threads = 0;
+  std::function<void()> Action;
 };
 
 }

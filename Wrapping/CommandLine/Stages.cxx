@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stages.h"
 
+#include "AtomicOutput.h"
 #include "Error.h"
 #include "Session.h"
 
@@ -18,8 +19,25 @@
 #include <vtkViewBlocksReader.h>
 #include <vtkViewBlocksWriter.h>
 
+#include <cmath>
+
 namespace freespace
 {
+
+namespace
+{
+
+// CLI11's own NonNegativeNumber takes not-a-number, and tells its limits with 309 digits.
+const CLI::Validator notNegative(
+  [](const std::string& text)
+  {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
+    return good ? std::string() : "'" + text + "' is not a number of 0 or more";
+  },
+  "NUMBER >= 0");
+
+}
 
 namespace
 {
@@ -44,10 +62,12 @@ void StereoStage::AddOptions(CLI::App& command)
 {
   command
     .add_option("--min-depth", this->MinimumDepth, "Nearest depth to search; 0: from the cameras")
+    ->check(notNegative)
     ->capture_default_str()
     ->group("Stereo");
   command
     .add_option("--max-depth", this->MaximumDepth, "Farthest depth to search; 0: from the cameras")
+    ->check(notNegative)
     ->capture_default_str()
     ->group("Stereo");
 }
@@ -75,14 +95,36 @@ void TriangulateStage::AddOptions(CLI::App& command)
   command
     .add_option("--support", this->SupportNeighbors,
       "Neighbours that must agree with a feature for it to count; 0 keeps all")
-    ->check(CLI::NonNegativeNumber)
+    ->check(notNegative)
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--tolerance", this->Tolerance,
       "How far another view's feature may stick out of the free space, fraction of its depth")
-    ->check(CLI::NonNegativeNumber)
+    ->check(notNegative)
     ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--neighbors", this->SupportingNeighbors,
+      "Of a feature's six nearest ones so many must agree with it, or it is an outlier; 0 keeps "
+      "all")
+    ->check(CLI::Range(0, 6))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--longest-edge", this->LongestEdge,
+      "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
+    ->check(notNegative)
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--depth-ratio", this->GreatestDepthRatio,
+      "Triangles over a greater ratio of depths carve nothing; 0: no limit")
+    ->check(notNegative)
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_flag("--keep-edges", this->KeepEdges, "No triangle crosses an edge that the stereo saw")
     ->group("Disparity maps");
   command
     .add_option("--background", this->Background,
@@ -104,6 +146,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputConnection(support->GetOutputPort());
   maps->SetTolerance(this->Tolerance);
+  maps->SetSupportingNeighbors(this->SupportingNeighbors);
+  maps->SetLongestEdge(this->LongestEdge);
+  maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
+  maps->SetKeepEdges(this->KeepEdges);
   maps->SetContinueBackground(
     this->Background == "on" || (this->Background == "auto" && !AreIsolated(features)));
   session.Run(maps, "triangulate");
@@ -122,7 +168,7 @@ void ContourStage::AddOptions(CLI::App& command)
   command
     .add_option("--hull-margin", this->HullMargin,
       "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
-    ->check(CLI::NonNegativeNumber)
+    ->check(notNegative)
     ->capture_default_str()
     ->group("Surface");
   command
@@ -131,7 +177,8 @@ void ContourStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Surface");
   command
-    .add_flag("--sharp,!--no-sharp", this->Sharp, "Rebuild sharp edges and corners (default on)")
+    .add_flag("--no-sharp", this->NotSharp,
+      "Do not rebuild sharp edges and corners between the lattice's vertices")
     ->group("Surface");
   command
     .add_flag("--observed", this->Observed,
@@ -148,7 +195,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
   vtkNew<vtkBisectionContourFilter> contour;
   contour->SetImplicitFunction(phi);
   contour->SetCells(this->Cells);
-  contour->SetSharpEdges(this->Sharp);
+  contour->SetSharpEdges(!this->NotSharp);
   contour->SetObservedOnly(this->Observed);
   session.Run(contour, "contour");
   vtkSmartPointer<vtkPolyData> surface = contour->GetOutput();
@@ -191,8 +238,14 @@ void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fil
   session.Tell("wrote " + fileName);
 }
 
+void CheckOutputFolder(const std::string& fileName)
+{
+  const AtomicOutput probe(fileName);
+}
+
 void CheckSurfaceName(const std::string& fileName)
 {
+  CheckOutputFolder(fileName);
   if (!vtkSurfaceWriter::CanWriteFile(fileName))
   {
     throw Error(

@@ -42,6 +42,10 @@ private:
   double SupportRadius = 4;
   int SupportNeighbors = 0;
   double Tolerance = 0.0002;
+  int SupportingNeighbors = 2;
+  double LongestEdge = 0;
+  double GreatestDepthRatio = 0;
+  bool KeepEdges = false;
   std::string Background = "auto";
 };
 
@@ -56,7 +60,7 @@ private:
   int Cells = 256;
   double HullMargin = 0.01;
   int MinimumViews = 1;
-  bool Sharp = true;
+  bool NotSharp = false;
   bool Observed = false;
 };
 
@@ -72,7 +76,10 @@ vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fi
 /// Writes a surface; the ending of the file name chooses the format.
 void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName);
 
-/// Throws Error unless the ending of a surface's file name is known: before hours of work, not after.
+/// Throws Error when a file's folder cannot be written: before hours of work, not after.
+void CheckOutputFolder(const std::string& fileName);
+
+/// The same, and unless the ending of a surface's file name is known.
 void CheckSurfaceName(const std::string& fileName);
 
 }

@@ -59,7 +59,7 @@ void AddStereoCommand(CLI::App& program, Session& session)
     ->type_name("FOLDER");
   settings->stereo.AddOptions(*command);
   command->footer("Example:\n  freespace stereo scene.json -o features.vtm --overlay pictures");
-  command->callback([settings, &session]() { FindFeatures(session, *settings); });
+  command->callback(session.Later([settings, &session]() { FindFeatures(session, *settings); }));
 }
 
 }

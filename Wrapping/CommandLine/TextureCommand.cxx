@@ -93,7 +93,7 @@ void AddTextureCommand(CLI::App& program, Session& session)
   command->footer("Examples:\n"
                   "  freespace texture mesh.ply --scene scene.json -o model.glb\n"
                   "  freespace texture mesh.ply --scene scene.json -o model.obj");
-  command->callback([settings, &session]() { Texture(session, *settings); });
+  command->callback(session.Later([settings, &session]() { Texture(session, *settings); }));
 }
 
 }

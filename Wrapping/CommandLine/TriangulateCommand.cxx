@@ -36,12 +36,12 @@ void AddTriangulateCommand(CLI::App& program, Session& session)
     ->type_name("MAPS.vtm");
   settings->triangulate.AddOptions(*command);
   command->footer("Example:\n  freespace triangulate features.vtm -o maps.vtm");
-  command->callback(
+  command->callback(session.Later(
     [settings, &session]()
     {
       const auto features = ReadViews(session, settings->features);
       WriteViews(session, settings->triangulate.Run(session, features), settings->output);
-    });
+    }));
 }
 
 }

@@ -178,7 +178,7 @@ void AddViewCommand(CLI::App& program, Session& session)
                   "  freespace view scene.json --mesh mesh.ply --view c.jpg -o c.png\n"
                   "  freespace view scene.json --mesh mesh.ply --model novel -o pictures\n"
                   "  freespace view scene.json --mesh mesh.ply --turntable 36 -o pictures");
-  command->callback([settings, &session]() { ViewScene(session, *settings); });
+  command->callback(session.Later([settings, &session]() { ViewScene(session, *settings); }));
 }
 
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The batch program: surfaces from calibrated photographs, without a display.
+#include "AtomicOutput.h"
 #include "Commands.h"
 #include "Error.h"
 #include "Session.h"
 
-#include <filesystem>
+#include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <sstream>
+#include <vector>
 
 namespace
 {
@@ -15,21 +18,34 @@ constexpr int failed = 1;
 constexpr int misused = 2;
 constexpr int stopped = 130;
 
+// The options of the command that was given, without those of the others and those not set.
+std::string ConfigText(const CLI::App& program)
+{
+  std::istringstream all(program.config_to_str(true, false));
+  std::string text;
+  for (std::string line; std::getline(all, line);)
+  {
+    const std::size_t dot = line.substr(0, line.find('=')).find('.');
+    const bool isSet = line.find("=\"\"") == std::string::npos;
+    if ((dot == std::string::npos && isSet) || line[0] == '[')
+    {
+      text += line + "\n";
+    }
+  }
+  return text;
+}
+
 void SaveConfig(const CLI::App& program, const std::string& fileName)
 {
-  const std::string unfinished = fileName + ".unfinished";
-  std::ofstream file(unfinished);
-  file << program.config_to_str(true, false);
+  freespace::AtomicOutput target(fileName);
+  std::ofstream file(target.Path());
+  file << ConfigText(program);
   file.close();
-  std::error_code renaming;
-  if (file)
+  if (!file)
   {
-    std::filesystem::rename(unfinished, fileName, renaming);
+    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
   }
-  if (!file || renaming)
-  {
-    throw freespace::Error("Cannot write " + fileName + ": its folder is missing or not writable.");
-  }
+  target.Commit();
 }
 
 void DescribeProgram(CLI::App& program)
@@ -40,9 +56,46 @@ void DescribeProgram(CLI::App& program)
     ->check(CLI::ExistingFile);
   program.require_subcommand(1);
   program.fallthrough();
+  program.allow_config_extras(CLI::config_extras_mode::error);
   program.footer("Example:\n"
                  "  freespace reconstruct scene.json -o mesh.ply --picture mesh.png\n"
                  "'freespace COMMAND --help' tells the options of a command.");
+}
+
+// A section of the config file runs the command that it is named after, unless the command line names
+// one itself: then that one's section counts.
+void LetConfigRunCommands(CLI::App& program, int argc, char* argv[])
+{
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<CLI::App*> commands = program.get_subcommands({});
+  const auto isNamed = [&words](const CLI::App* command)
+  { return std::find(words.begin(), words.end(), command->get_name()) != words.end(); };
+  const bool anyNamed = std::any_of(commands.begin(), commands.end(), isNamed);
+  for (CLI::App* command : commands)
+  {
+    command->configurable(!anyNamed || isNamed(command));
+    command->allow_config_extras(CLI::config_extras_mode::error);
+  }
+}
+
+// One sentence for what is wrong with the command line.
+std::string Fault(const CLI::App& program, const CLI::ParseError& error)
+{
+  const std::string config = program.get_config_ptr()->as<std::string>();
+  if (!program.get_subcommands().empty())
+  {
+    return error.what();
+  }
+  const std::vector<std::string> unknown = program.remaining();
+  if (!unknown.empty() && unknown[0][0] != '-')
+  {
+    return "There is no command '" + unknown[0] + "'; 'freespace --help' lists them.";
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error) && !config.empty())
+  {
+    return config + " names no command, and neither does the command line.";
+  }
+  return error.what();
 }
 
 int Run(int argc, char* argv[])
@@ -54,15 +107,6 @@ int Run(int argc, char* argv[])
   session.AddOptions(program);
   program.add_option("--save-config", configToSave, "Write all options of this run to a file")
     ->configurable(false);
-  program.parse_complete_callback(
-    [&]()
-    {
-      session.Begin();
-      if (!configToSave.empty())
-      {
-        SaveConfig(program, configToSave);
-      }
-    });
   freespace::AddReconstructCommand(program, session);
   freespace::AddSparseCommand(program, session);
   freespace::AddCalibrateCommand(program, session);
@@ -75,10 +119,7 @@ int Run(int argc, char* argv[])
   freespace::AddTextureCommand(program, session);
   freespace::AddOccupancyCommand(program, session);
   freespace::AddViewCommand(program, session);
-  for (CLI::App* command : program.get_subcommands({}))
-  {
-    command->configurable(); // a section of the config file runs the command
-  }
+  LetConfigRunCommands(program, argc, argv);
   try
   {
     program.parse(argc, argv);
@@ -89,9 +130,14 @@ int Run(int argc, char* argv[])
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "freespace: " << error.what() << "\n";
+    std::cerr << "freespace: " << Fault(program, error) << "\n";
     return misused;
   }
+  if (!configToSave.empty())
+  {
+    SaveConfig(program, configToSave);
+  }
+  session.Do();
   return 0;
 }
 
