@@ -86,6 +86,14 @@ double FreeBesidePlate(const DisparityMap& map)
   return static_cast<double>(free) / count;
 }
 
+// Behind each side of the plate one other view looks.
+ContinueBackgroundOptions OneRefutes()
+{
+  ContinueBackgroundOptions options;
+  options.views = 1;
+  return options;
+}
+
 }
 
 TEST(ContinueBackground, BehindAnEdgeTheWallGoesOn)
@@ -93,7 +101,7 @@ TEST(ContinueBackground, BehindAnEdgeTheWallGoesOn)
   const std::vector<View> views = PlateBeforeWall();
   std::vector<DisparityMap> maps = TriangulateViews(views, DelaunayDisparityOptions());
   EXPECT_LT(FreeBesidePlate(maps[0]), 0.1) << "the scene needs bridges";
-  ContinueBackground(maps, views, ContinueBackgroundOptions());
+  ContinueBackground(maps, views, OneRefutes());
   EXPECT_GT(FreeBesidePlate(maps[0]), 0.9);
 }
 
@@ -101,7 +109,7 @@ TEST(ContinueBackground, MatterStays)
 {
   const std::vector<View> views = PlateBeforeWall();
   std::vector<DisparityMap> maps = TriangulateViews(views, DelaunayDisparityOptions());
-  ContinueBackground(maps, views, ContinueBackgroundOptions());
+  ContinueBackground(maps, views, OneRefutes());
   for (const DisparityMap& map : maps)
   {
     const ViewFreespace freespace(map);
@@ -122,7 +130,7 @@ TEST(ContinueBackground, PointsSetBackAreMarkedAndAtTheirPixels)
   const std::vector<View> views = PlateBeforeWall();
   const std::vector<DisparityMap> before = TriangulateViews(views, DelaunayDisparityOptions());
   std::vector<DisparityMap> maps = before;
-  ContinueBackground(maps, views, ContinueBackgroundOptions());
+  ContinueBackground(maps, views, OneRefutes());
   ASSERT_EQ(maps.size(), before.size());
   for (std::size_t v = 0; v < maps.size(); ++v)
   {
@@ -155,7 +163,7 @@ TEST(ContinueBackground, WithoutWitnessBridgesStay)
   views.resize(1);
   const std::vector<DisparityMap> before = TriangulateViews(views, DelaunayDisparityOptions());
   std::vector<DisparityMap> maps = before;
-  ContinueBackground(maps, views, ContinueBackgroundOptions());
+  ContinueBackground(maps, views, OneRefutes());
   EXPECT_EQ(maps[0].triangles, before[0].triangles);
 
   views = PlateBeforeWall();
@@ -175,7 +183,7 @@ TEST(ContinueBackground, KnownPointsAreNotFreed)
   const Vector2d pixel = maps[0].camera.Project({ PlateHalf + 0.01, 0.003, PlateDepth });
   const Vector3d post = maps[0].camera.Unproject(pixel, 1.9);
   views[1].points.push_back(post);
-  ContinueBackground(maps, views, ContinueBackgroundOptions());
+  ContinueBackground(maps, views, OneRefutes());
   EXPECT_FALSE(ViewFreespace(maps[0]).IsFree(post));
   EXPECT_GT(FreeBesidePlate(maps[0]), 0.6) << "elsewhere it goes on";
 }
