@@ -3,6 +3,7 @@
 
 #include "Error.h"
 
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -89,39 +90,103 @@ float PeakOffset(float before, float peak, float after)
   return curvature < 0 ? 0.5f * (a - c) / curvature : 0.0f;
 }
 
+// Three rows of slopes, and what the middle one needs to be an edge.
+struct PeakFinder
+{
+  const float* grey;
+  const GradientRow &above, &row, &below;
+  float scale; // least squared slope for each grey level
+
+  float Before(int x, bool alongX) const
+  {
+    return alongX ? this->row.squared[x - 1] : this->above.squared[x];
+  }
+
+  float After(int x, bool alongX) const
+  {
+    return alongX ? this->row.squared[x + 1] : this->below.squared[x];
+  }
+
+  bool AlongX(int x) const { return std::abs(this->row.x[x]) >= std::abs(this->row.y[x]); }
+
+  // Whether the slope at x is steep enough and greater than before and after it.
+  bool IsPeak(int x) const
+  {
+    const float slope = this->row.squared[x];
+    const bool alongX = this->AlongX(x);
+    return slope >= this->scale * (this->grey[x] + NoiseScaleOffset) &&
+      slope > this->Before(x, alongX) && slope >= this->After(x, alongX);
+  }
+
+  // The same for four pixels from x on at once: bit k is that of x + k.
+  int ArePeaks(int x) const
+  {
+    const float* squared = this->row.squared.data() + x;
+    const cv::v_float32x4 slope = cv::v_load(squared);
+    const cv::v_float32x4 least = cv::v_setall_f32(this->scale) *
+      (cv::v_load(this->grey + x) + cv::v_setall_f32(NoiseScaleOffset));
+    const cv::v_float32x4 alongX =
+      cv::v_abs(cv::v_load(&this->row.x[x])) >= cv::v_abs(cv::v_load(&this->row.y[x]));
+    const cv::v_float32x4 before =
+      cv::v_select(alongX, cv::v_load(squared - 1), cv::v_load(&this->above.squared[x]));
+    const cv::v_float32x4 after =
+      cv::v_select(alongX, cv::v_load(squared + 1), cv::v_load(&this->below.squared[x]));
+    return cv::v_signmask((slope >= least) & (slope > before) & (slope >= after));
+  }
+
+  EdgePoint PointAt(int x, int y) const
+  {
+    const float slope = this->row.squared[x];
+    const bool alongX = this->AlongX(x);
+    const float offset = PeakOffset(this->Before(x, alongX), slope, this->After(x, alongX));
+    return { x + (alongX ? offset : 0), y + (alongX ? 0 : offset), this->row.x[x], this->row.y[x],
+      std::sqrt(slope * NoiseScale(this->grey[x])) };
+  }
+};
+
 // The points of one row where the slope is greatest across the edge; `index` holds the number of
 // each pixel's point or -1.
-void FindPointsInRow(const cv::Mat& smooth, int y, const GradientRow& above, const GradientRow& row,
-  const GradientRow& below, float low, std::vector<EdgePoint>& points, int* index)
+void FindPointsInRow(
+  const PeakFinder& finder, int y, int width, std::vector<EdgePoint>& points, int* index)
 {
-  const float* grey = smooth.ptr<float>(y);
-  const float* slope = row.squared.data();
-  const float scale = low * low / NoiseScaleNumerator;
-  for (int x = 1; x + 1 < smooth.cols; ++x)
+  const auto add = [&](int x)
   {
-    if (slope[x] < scale * (grey[x] + NoiseScaleOffset))
+    index[x] = static_cast<int>(points.size());
+    points.push_back(finder.PointAt(x, y));
+  };
+  int x = 1;
+  for (; x + 4 < width; x += 4)
+  {
+    int peaks = finder.ArePeaks(x);
+    for (int k = 0; peaks != 0; ++k, peaks >>= 1)
     {
-      continue;
+      if (peaks & 1)
+      {
+        add(x + k);
+      }
     }
-    const bool alongX = std::abs(row.x[x]) >= std::abs(row.y[x]);
-    const float before = alongX ? slope[x - 1] : above.squared[x];
-    const float after = alongX ? slope[x + 1] : below.squared[x];
-    const float contrast = slope[x] * NoiseScale(grey[x]);
-    if (slope[x] > before && slope[x] >= after)
+  }
+  for (; x + 1 < width; ++x)
+  {
+    if (finder.IsPeak(x))
     {
-      const float offset = PeakOffset(before, slope[x], after);
-      index[x] = static_cast<int>(points.size());
-      points.push_back({ x + (alongX ? offset : 0), y + (alongX ? 0 : offset), row.x[x], row.y[x],
-        std::sqrt(contrast) });
+      add(x);
     }
   }
 }
 
+// A point's neighbours are looked for so far from its pixel; the index of points has a frame as wide
+// around the image, without any, so that nobody looks over its border.
+constexpr int LinkRadius = 2;
+
 std::vector<EdgePoint> FindPoints(const cv::Mat& smooth, double lowContrast, cv::Mat& index)
 {
   std::vector<EdgePoint> points;
-  index.create(smooth.size(), CV_32S);
+  points.reserve(smooth.total() / 16);
+  index.create(smooth.rows + 2 * LinkRadius, smooth.cols + 2 * LinkRadius, CV_32S);
   index.setTo(-1);
+  const float low = static_cast<float>(lowContrast);
+  const float scale = low * low / NoiseScaleNumerator;
   GradientRow above(smooth.cols), row(smooth.cols), below(smooth.cols);
   row.Compute(smooth, 1);
   for (int y = 1; y + 1 < smooth.rows; ++y)
@@ -134,8 +199,8 @@ std::vector<EdgePoint> FindPoints(const cv::Mat& smooth, double lowContrast, cv:
     {
       below = GradientRow(smooth.cols);
     }
-    FindPointsInRow(
-      smooth, y, above, row, below, static_cast<float>(lowContrast), points, index.ptr<int>(y));
+    FindPointsInRow({ smooth.ptr<float>(y), above, row, below, scale }, y, smooth.cols, points,
+      index.ptr<int>(y + LinkRadius) + LinkRadius);
     std::swap(above, row);
     std::swap(row, below);
   }
@@ -165,30 +230,34 @@ struct Neighbors
 
 Neighbors FindNeighbors(const std::vector<EdgePoint>& points, const cv::Mat& index, int i)
 {
-  constexpr int radius = 2;
-  const int x = static_cast<int>(std::lround(points[i].x));
-  const int y = static_cast<int>(std::lround(points[i].y));
+  static_assert(LinkRadius == 2, "a row of the window is four pixels and one");
+  const EdgePoint& point = points[i];
+  // The nearest pixel, in the index's frame the window's first one.
+  const int x = static_cast<int>(point.x + 0.5), y = static_cast<int>(point.y + 0.5);
   Neighbors best;
-  for (int v = std::max(0, y - radius); v <= std::min(index.rows - 1, y + radius); ++v)
+  const auto visit = [&](int j)
   {
-    const int* row = index.ptr<int>(v);
-    for (int u = std::max(0, x - radius); u <= std::min(index.cols - 1, x + radius); ++u)
+    const float score = j == i ? 0 : LinkScore(point, points[j]);
+    if (score > best.aheadScore)
     {
-      const int j = row[u];
-      if (j < 0 || j == i)
+      best.ahead = j;
+      best.aheadScore = score;
+    }
+    else if (score < best.behindScore)
+    {
+      best.behind = j;
+      best.behindScore = score;
+    }
+  };
+  for (int v = y; v <= y + 2 * LinkRadius; ++v)
+  {
+    const int* row = index.ptr<int>(v) + x;
+    const int none = cv::v_signmask(cv::v_load(row)) | (row[4] < 0) << 4;
+    for (int k = 0, some = ~none & 31; some != 0; ++k, some >>= 1)
+    {
+      if (some & 1)
       {
-        continue;
-      }
-      const float score = LinkScore(points[i], points[j]);
-      if (score > best.aheadScore)
-      {
-        best.ahead = j;
-        best.aheadScore = score;
-      }
-      else if (score < best.behindScore)
-      {
-        best.behind = j;
-        best.behindScore = score;
+        visit(row[k]);
       }
     }
   }
@@ -273,29 +342,45 @@ public:
     }
   }
 
-  // The k-th token of a chain; a closed chain has no ends.
-  EdgeToken Make(const std::vector<int>& chain, int k, bool closed) const
+  // Goes to a chain; a closed one has no ends and goes on beyond them.
+  void GoTo(const std::vector<int>& chain, bool closed)
   {
     const int size = static_cast<int>(chain.size());
     const int greatest = static_cast<int>(this->Weights.size()) - 1;
-    const int radius =
-      closed ? std::min(greatest, (size - 1) / 2) : std::min({ greatest, k, size - 1 - k });
-    const EdgePoint& center = this->Points[chain[k]];
+    this->Chain = chain.data();
+    this->Size = size;
+    this->Closed = closed;
+    this->Beyond = closed ? std::min(greatest, (size - 1) / 2) : 0;
+    this->Positions.clear();
+    for (int k = -this->Beyond; k < size + this->Beyond; ++k)
+    {
+      const EdgePoint& point = this->Points[chain[k < 0 ? k + size : k < size ? k : k - size]];
+      this->Positions.emplace_back(point.x, point.y);
+    }
+  }
+
+  // The k-th token of the chain.
+  EdgeToken Make(int k) const
+  {
+    const int size = this->Size;
+    const int greatest = static_cast<int>(this->Weights.size()) - 1;
+    const int radius = this->Closed ? this->Beyond : std::min({ greatest, k, size - 1 - k });
+    const EdgePoint& center = this->Points[this->Chain[k]];
+    const Eigen::Vector2d* positions = this->Positions.data() + this->Beyond;
     EdgeToken token;
     token.contrast = center.contrast;
     token.position = Eigen::Vector2d::Zero();
     Eigen::Vector2d along = Eigen::Vector2d::Zero();
-    const std::vector<double>& weights = this->Weights[radius];
+    const double* weights = this->Weights[radius].data() + radius;
     for (int j = -radius; j <= radius; ++j)
     {
-      const Eigen::Vector2d position = this->Position(chain[(k + j + size) % size]);
-      token.position += weights[j + radius] * position;
-      along += j * position;
+      token.position += weights[j] * positions[k + j];
+      along += j * positions[k + j];
     }
     if (radius < 2) // at an end
     {
       const int first = std::clamp(k - 2, 0, std::max(0, size - 5));
-      along = this->Position(chain[std::min(first + 4, size - 1)]) - this->Position(chain[first]);
+      along = positions[std::min(first + 4, size - 1)] - positions[first];
     }
     const Eigen::Vector2d level(center.gy, -center.gx); // across the gradient
     token.position += Eigen::Vector2d(0.5, 0.5);
@@ -305,11 +390,6 @@ public:
   }
 
 private:
-  Eigen::Vector2d Position(int point) const
-  {
-    return { this->Points[point].x, this->Points[point].y };
-  }
-
   void AddColors(EdgeToken& token) const
   {
     token.bright.fill(0);
@@ -334,6 +414,13 @@ private:
   const std::vector<EdgePoint>& Points;
   const cv::Mat& Colors;
   std::vector<std::vector<double>> Weights; // by radius
+
+  // The chain at hand.
+  const int* Chain = nullptr;
+  int Size = 0;
+  bool Closed = false;
+  int Beyond = 0;                         // how far it goes on beyond its ends, tokens
+  std::vector<Eigen::Vector2d> Positions; // with those beyond the ends
 };
 
 // A little blurred, so that a single sample stands for its neighbourhood.
@@ -403,7 +490,7 @@ EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options)
   LinkPoints(points, index);
 
   const cv::Mat colors = BlurredColors(image);
-  const TokenMaker maker(points, colors, options.fitRadius);
+  TokenMaker maker(points, colors, options.fitRadius);
   edges.tokens.reserve(points.size());
   VisitChains(points,
     [&](const std::vector<int>& chain, bool closed)
@@ -415,9 +502,10 @@ EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options)
       {
         return;
       }
+      maker.GoTo(chain, closed);
       for (int k = 0; k < size; ++k)
       {
-        edges.tokens.push_back(maker.Make(chain, k, closed));
+        edges.tokens.push_back(maker.Make(k));
       }
       edges.begin.push_back(static_cast<int>(edges.tokens.size()));
     });

@@ -10,13 +10,17 @@ namespace freespace
 namespace
 {
 
-using Segment = EpipolarIndex::Segment;
+struct RectifiedSegment
+  : EpipolarIndex::Span
+  , EpipolarIndex::Segment
+{
+};
 
-std::vector<Segment> RectifiedSegments(
+std::vector<RectifiedSegment> RectifiedSegments(
   const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
   constexpr double leastScale = 0.34; // cosine of 70 degrees
-  std::vector<Segment> segments;
+  std::vector<RectifiedSegment> segments;
   segments.reserve(edges.tokens.size());
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
   {
@@ -33,11 +37,12 @@ std::vector<Segment> RectifiedSegments(
       const Eigen::Vector2d tangent = (pair.OtherJacobian(ray) * token.tangent).normalized();
       if (std::abs(tangent.y()) >= minimumSine)
       {
-        segments.push_back({ static_cast<float>(std::min(ray.v, next.v)),
-          static_cast<float>(std::max(ray.v, next.v)), static_cast<float>(ray.u),
-          static_cast<float>(ray.v), static_cast<float>((next.u - ray.u) / (next.v - ray.v)),
-          static_cast<float>(tangent.x()), static_cast<float>(tangent.y()),
-          static_cast<float>(token.Uncertainty()), i });
+        segments.push_back(
+          { { static_cast<float>(std::min(ray.v, next.v)),
+              static_cast<float>(std::max(ray.v, next.v)), static_cast<float>(ray.u),
+              static_cast<float>(ray.v), static_cast<float>((next.u - ray.u) / (next.v - ray.v)) },
+            { static_cast<float>(tangent.x()), static_cast<float>(tangent.y()),
+              static_cast<float>(token.Uncertainty()), i } });
       }
     }
   }
@@ -48,14 +53,14 @@ std::vector<Segment> RectifiedSegments(
 
 EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
-  const std::vector<Segment> segments = RectifiedSegments(pair, edges, minimumSine);
+  const std::vector<RectifiedSegment> segments = RectifiedSegments(pair, edges, minimumSine);
   if (segments.empty())
   {
     return;
   }
   constexpr float most = std::numeric_limits<float>::max();
   float low = most, high = -most, left = most, right = -most;
-  for (const Segment& segment : segments)
+  for (const RectifiedSegment& segment : segments)
   {
     low = std::min(low, segment.low);
     high = std::max(high, segment.high);
@@ -70,7 +75,7 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   const float cells = 4.0f * static_cast<float>(segments.size());
   this->CellWidth = std::max(this->CellWidth, (right - left) * 2 * this->Rows / cells);
   this->Columns = static_cast<int>((right - left) / CellWidth) + 1;
-  const auto visitCells = [this](const Segment& segment, auto&& visit)
+  const auto visitCells = [this](const RectifiedSegment& segment, auto&& visit)
   {
     const int first = static_cast<int>(std::floor(segment.low) - this->FirstRow);
     const int last = static_cast<int>(std::floor(segment.high) - this->FirstRow);
@@ -81,7 +86,7 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
     }
   };
   this->Begin.assign(static_cast<std::size_t>(2) * this->Rows * this->Columns + 1, 0);
-  for (const Segment& segment : segments)
+  for (const RectifiedSegment& segment : segments)
   {
     visitCells(segment, [this](int cell) { ++this->Begin[cell + 1]; });
   }
@@ -89,11 +94,26 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   {
     this->Begin[cell] += this->Begin[cell - 1];
   }
-  this->Segments.resize(this->Begin.back());
-  std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
-  for (const Segment& segment : segments)
+  const std::size_t count = this->Begin.back();
+  this->Segments.resize(count);
+  for (std::vector<float>* column : { &this->Low, &this->High, &this->U, &this->V, &this->Slope })
   {
-    visitCells(segment, [&](int cell) { this->Segments[next[cell]++] = segment; });
+    column->resize(count + 3);
+  }
+  std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
+  for (const RectifiedSegment& segment : segments)
+  {
+    visitCells(segment,
+      [&](int cell)
+      {
+        const int i = next[cell]++;
+        this->Segments[i] = segment;
+        this->Low[i] = segment.low;
+        this->High[i] = segment.high;
+        this->U[i] = segment.u;
+        this->V[i] = segment.v;
+        this->Slope[i] = segment.slope;
+      });
   }
 }
 

@@ -5,6 +5,8 @@
 #include "EdgeTokens.h"
 #include "EpipolarPair.h"
 
+#include <opencv2/core/hal/intrin.hpp>
+
 #include <algorithm>
 
 namespace freespace
@@ -15,12 +17,16 @@ namespace freespace
 class EpipolarIndex
 {
 public:
-  /// From one token to the next, in rectified pixels.
+  /// Where a piece from one token to the next lies, in rectified pixels.
+  struct Span
+  {
+    float low, high; ///< rows between which it lies
+    float u, v;      ///< where it starts
+    float slope;     ///< du / dv
+  };
+  /// What else is known of it.
   struct Segment
   {
-    float low, high;          ///< rows between which it lies
-    float u, v;               ///< where it starts
-    float slope;              ///< du / dv
     float tangentU, tangentV; ///< unit tangent of the token where it starts
     float uncertainty;        ///< of that token
     int token;
@@ -43,14 +49,26 @@ public:
     const int line = (2 * static_cast<int>(row) + down) * this->Columns;
     const int begin = this->Begin[line + this->ColumnOf(near - this->Widest)];
     const int end = this->Begin[line + this->ColumnOf(far + this->Widest) + 1];
-    const float at = static_cast<float>(v);
-    for (int i = begin; i < end; ++i)
+    const cv::v_float32x4 at = cv::v_setall_f32(static_cast<float>(v));
+    const cv::v_float32x4 left = cv::v_setall_f32(near), right = cv::v_setall_f32(far);
+    float columns[4];
+    for (int i = begin; i < end; i += 4)
     {
-      const Segment& segment = this->Segments[i];
-      const float u = segment.u + (at - segment.v) * segment.slope;
-      if (segment.low <= at && at < segment.high && u >= near && u < far)
+      const cv::v_float32x4 u =
+        cv::v_load(&this->U[i]) + (at - cv::v_load(&this->V[i])) * cv::v_load(&this->Slope[i]);
+      int crossing = cv::v_signmask((cv::v_load(&this->Low[i]) <= at) &
+        (at < cv::v_load(&this->High[i])) & (u >= left) & (u < right));
+      if (i + 4 > end)
       {
-        visit(segment, u);
+        crossing &= (1 << (end - i)) - 1;
+      }
+      cv::v_store(columns, u);
+      for (int k = 0; crossing != 0; ++k, crossing >>= 1)
+      {
+        if (crossing & 1)
+        {
+          visit(this->Segments[i + k], columns[k]);
+        }
       }
     }
   }
@@ -62,7 +80,10 @@ private:
     return static_cast<int>(std::min(std::max(column, 0.0f), this->Columns - 1.0f));
   }
 
-  std::vector<Segment> Segments; // by cell; in that of their start, in each row that they touch
+  // By cell; in that of their start, in each row that they touch. Where they lie stands in columns
+  // of its own, with three values more, so that processors compare four at once.
+  std::vector<Segment> Segments;
+  std::vector<float> Low, High, U, V, Slope;
   std::vector<int> Begin; // of each cell and one past the last: rows twice (up and down) x columns
   int Rows = 0;
   int Columns = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SideColors.h"
 
-#include <opencv2/core/hal/intrin.hpp>
-
 #include <algorithm>
 
 namespace freespace
@@ -28,20 +26,28 @@ std::array<double, 256> LogColors()
   return colors;
 }
 
-Statistics ChannelStatistics(
-  const EdgeChains& edges, int channel, const std::array<double, 256>& logColors)
+// How often each value occurs in each channel.
+using Histograms = std::array<std::array<int, 256>, 3>;
+
+Histograms ColorHistograms(const EdgeChains& edges)
 {
   constexpr std::size_t stride = 4; // a sample of the tokens will do
-  std::array<std::size_t, 256> histogram{};
+  Histograms histograms{};
   for (std::size_t k = 0; k < edges.tokens.size(); k += stride)
   {
     const EdgeToken& token = edges.tokens[k];
-    for (int i = channel; i < EdgeSideColors; i += 3)
+    for (int i = 0; i < EdgeSideColors; ++i)
     {
-      ++histogram[token.bright[i]];
-      ++histogram[token.dark[i]];
+      ++histograms[i % 3][token.bright[i]];
+      ++histograms[i % 3][token.dark[i]];
     }
   }
+  return histograms;
+}
+
+Statistics ChannelStatistics(
+  const std::array<int, 256>& histogram, const std::array<double, 256>& logColors)
+{
   double count = 0, sum = 0, squares = 0;
   for (int value = 0; value < 256; ++value)
   {
@@ -63,15 +69,17 @@ Statistics ChannelStatistics(
 SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
 {
   const std::array<double, 256> logColors = LogColors();
+  const Histograms from = ColorHistograms(image);
+  const Histograms to = &image == &reference ? from : ColorHistograms(reference);
   std::uint8_t table[3][256];
   for (int channel = 0; channel < 3; ++channel)
   {
-    const Statistics from = ChannelStatistics(image, channel, logColors);
-    const Statistics to = ChannelStatistics(reference, channel, logColors);
-    const double gain = std::clamp(to.spread / std::max(from.spread, 1.0), 0.25, 4.0);
+    const Statistics own = ChannelStatistics(from[channel], logColors);
+    const Statistics wanted = ChannelStatistics(to[channel], logColors);
+    const double gain = std::clamp(wanted.spread / std::max(own.spread, 1.0), 0.25, 4.0);
     for (int value = 0; value < 256; ++value)
     {
-      const double color = to.mean + gain * (logColors[value] - from.mean);
+      const double color = wanted.mean + gain * (logColors[value] - own.mean);
       table[channel][value] = static_cast<std::uint8_t>(std::clamp(color, 0.0, 255.0));
     }
   }
@@ -88,19 +96,6 @@ SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
     }
     this->Sides.push_back(sides);
   }
-}
-
-std::array<float, 2> SideColors::Difference(
-  int token, const SideColors& other, int otherToken, bool crossed) const
-{
-  std::array<float, 2> difference;
-  for (int side = 0; side < 2; ++side)
-  {
-    const cv::v_uint8x16 a = cv::v_load(this->Sides[token][side].data());
-    const cv::v_uint8x16 b = cv::v_load(other.Sides[otherToken][crossed ? 1 - side : side].data());
-    difference[side] = static_cast<float>(cv::v_reduce_sad(a, b)) / EdgeSideColors;
-  }
-  return difference;
 }
 
 }

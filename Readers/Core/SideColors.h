@@ -4,6 +4,8 @@
 
 #include "EdgeTokens.h"
 
+#include <opencv2/core/hal/intrin.hpp>
+
 namespace freespace
 {
 
@@ -22,7 +24,18 @@ public:
   /// Mean absolute differences, 0 .. 255, between the bright sides and between the dark ones;
   /// crossed: of the bright side to the other's dark one, and the other way round.
   std::array<float, 2> Difference(
-    int token, const SideColors& other, int otherToken, bool crossed) const;
+    int token, const SideColors& other, int otherToken, bool crossed) const
+  {
+    std::array<float, 2> difference;
+    for (int side = 0; side < 2; ++side)
+    {
+      const EdgeSide& own = this->Sides[token][side];
+      const EdgeSide& others = other.Sides[otherToken][crossed ? 1 - side : side];
+      const unsigned sum = cv::v_reduce_sad(cv::v_load(own.data()), cv::v_load(others.data()));
+      difference[side] = static_cast<float>(sum) / EdgeSideColors;
+    }
+    return difference;
+  }
 
 private:
   std::vector<std::array<EdgeSide, 2>> Sides; // per token

@@ -57,6 +57,8 @@ public:
       this->Images.emplace_back(reference, other, this->MinimumSine);
       this->Baseline = std::max(this->Baseline, this->Images.back().pair.Baseline);
     }
+    this->Agreeing.resize(this->Images.size());
+    this->AgreeingCost.resize(this->Images.size());
   }
 
   std::vector<EdgeMatch> Match()
@@ -174,15 +176,20 @@ private:
   void Confirm(const EdgeCandidate& seed, std::size_t begin, std::size_t end)
   {
     constexpr float distance = 0.2f; // share of the distance in the cost
-    this->Agreeing.assign(this->Images.size(), nullptr);
-    this->AgreeingCost.assign(this->Images.size(), 1.0f);
+    std::fill(this->Agreeing.begin(), this->Agreeing.end(), nullptr);
+    std::fill(this->AgreeingCost.begin(), this->AgreeingCost.end(), 1.0f);
     for (std::size_t i = begin; i < end; ++i)
     {
       const EdgeCandidate& other = this->Candidates[i];
-      const double off = std::abs(other.disparity - seed.disparity) /
-        (this->Options.tolerance * std::max(seed.sigma, other.sigma));
-      const float cost = (1 - distance) * other.cost + distance * static_cast<float>(off);
-      if (other.image != seed.image && off <= 1 && cost < this->AgreeingCost[other.image])
+      const double difference = std::abs(other.disparity - seed.disparity);
+      const double most = this->Options.tolerance * std::max(seed.sigma, other.sigma);
+      if (other.image == seed.image || difference > most)
+      {
+        continue;
+      }
+      const float off = static_cast<float>(difference / most);
+      const float cost = (1 - distance) * other.cost + distance * off;
+      if (cost < this->AgreeingCost[other.image])
       {
         this->Agreeing[other.image] = &other;
         this->AgreeingCost[other.image] = cost;
@@ -224,8 +231,10 @@ private:
       this->FindCandidates(token, image);
     }
     std::sort(this->Candidates.begin(), this->Candidates.end(),
-      [](const EdgeCandidate& a, const EdgeCandidate& b) {
-        return std::tie(a.disparity, a.image, a.token) < std::tie(b.disparity, b.image, b.token);
+      [](const EdgeCandidate& a, const EdgeCandidate& b)
+      {
+        return a.disparity != b.disparity ? a.disparity < b.disparity
+                                          : std::tie(a.image, a.token) < std::tie(b.image, b.token);
       });
     double widest = 0;
     for (const EdgeCandidate& candidate : this->Candidates)
@@ -270,20 +279,29 @@ private:
   void KeepBest()
   {
     constexpr std::size_t maximum = 6; // hypotheses of a token
-    std::stable_sort(this->Found.begin(), this->Found.end(),
-      [](const EdgeHypothesis& a, const EdgeHypothesis& b) { return a.score < b.score; });
-    const std::size_t first = this->States.size();
+    this->Order.clear();
     for (const EdgeHypothesis& hypothesis : this->Found)
     {
+      this->Order.emplace_back(hypothesis.score, static_cast<int>(this->Order.size()));
+    }
+    std::sort(this->Order.begin(), this->Order.end());
+    const std::size_t first = this->States.size();
+    for (const auto& [score, index] : this->Order)
+    {
+      const EdgeHypothesis& hypothesis = this->Found[index];
       const bool known = std::any_of(this->States.begin() + first, this->States.end(),
         [&](const EdgeHypothesis& other)
         {
           return std::abs(hypothesis.disparity - other.disparity) <
             this->Options.tolerance / 2 * std::min(hypothesis.sigma, other.sigma);
         });
-      if (!known && this->States.size() < first + maximum)
+      if (!known)
       {
         this->States.push_back(hypothesis);
+        if (this->States.size() == first + maximum)
+        {
+          break;
+        }
       }
     }
   }
@@ -312,9 +330,12 @@ private:
   {
     this->States.clear();
     this->Scratch.clear();
-    std::vector<int> first; // of each token's states
-    std::vector<double> cost;
-    std::vector<int> from;
+    std::vector<int>& first = this->FirstState;
+    std::vector<double>& cost = this->StateCost;
+    std::vector<int>& from = this->StateFrom;
+    first.clear();
+    cost.clear();
+    from.clear();
     for (int token = begin; token < end; ++token)
     {
       first.push_back(static_cast<int>(this->States.size()));
@@ -327,6 +348,10 @@ private:
         int bestFrom = -1;
         for (int p = token > begin ? first[token - begin - 1] : s; p < first.back(); ++p)
         {
+          if (cost[p] >= best) // no transition makes it less
+          {
+            continue;
+          }
           const double sum = cost[p] + this->Transition(this->States[p], this->States[s], step);
           if (sum < best)
           {
@@ -429,11 +454,15 @@ private:
   // One token's.
   std::vector<EdgeCandidate> Candidates;
   std::vector<EdgeHypothesis> Found;
+  std::vector<std::pair<double, int>> Order;  // of what was found, by score
   std::vector<const EdgeCandidate*> Agreeing; // per image
   std::vector<float> AgreeingCost;
   // One chain's: the hypotheses of its tokens, each list ending in "no match", and their support.
   std::vector<EdgeHypothesis> States;
   std::vector<EdgeCandidate> Scratch;
+  std::vector<int> FirstState;   // of each token
+  std::vector<double> StateCost; // of the best way to each state
+  std::vector<int> StateFrom;    // and the state before it on that way
   // The result: one hypothesis per token, and their support.
   std::vector<EdgeHypothesis> Chosen;
   std::vector<EdgeCandidate> Support;
