@@ -96,10 +96,7 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   }
   const std::size_t count = this->Begin.back();
   this->Segments.resize(count);
-  for (std::vector<float>* column : { &this->Low, &this->High, &this->U, &this->V, &this->Slope })
-  {
-    column->resize(count + 3);
-  }
+  this->Spans.resize((count + 3) / 4);
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   for (const RectifiedSegment& segment : segments)
   {
@@ -108,11 +105,12 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
       {
         const int i = next[cell]++;
         this->Segments[i] = segment;
-        this->Low[i] = segment.low;
-        this->High[i] = segment.high;
-        this->U[i] = segment.u;
-        this->V[i] = segment.v;
-        this->Slope[i] = segment.slope;
+        SpanBlock& spans = this->Spans[i / 4];
+        spans.low[i % 4] = segment.low;
+        spans.high[i % 4] = segment.high;
+        spans.u[i % 4] = segment.u;
+        spans.v[i % 4] = segment.v;
+        spans.slope[i % 4] = segment.slope;
       });
   }
 }

@@ -41,33 +41,33 @@ public:
   template <typename Visitor>
   void VisitRow(double v, bool down, float near, float far, Visitor&& visit) const
   {
-    const double row = std::floor(v) - this->FirstRow;
-    if (!(row >= 0 && row < this->Rows))
+    if (!(v >= this->FirstRow && v < this->FirstRow + this->Rows))
     {
       return;
     }
-    const int line = (2 * static_cast<int>(row) + down) * this->Columns;
+    const int truncated = static_cast<int>(v);
+    const int row = truncated - (truncated > v) - static_cast<int>(this->FirstRow);
+    const int line = (2 * row + down) * this->Columns;
     const int begin = this->Begin[line + this->ColumnOf(near - this->Widest)];
     const int end = this->Begin[line + this->ColumnOf(far + this->Widest) + 1];
     const cv::v_float32x4 at = cv::v_setall_f32(static_cast<float>(v));
     const cv::v_float32x4 left = cv::v_setall_f32(near), right = cv::v_setall_f32(far);
     float columns[4];
-    for (int i = begin; i < end; i += 4)
+    for (int first = begin & ~3; first < end; first += 4)
     {
+      const SpanBlock& spans = this->Spans[first / 4];
       const cv::v_float32x4 u =
-        cv::v_load(&this->U[i]) + (at - cv::v_load(&this->V[i])) * cv::v_load(&this->Slope[i]);
-      int crossing = cv::v_signmask((cv::v_load(&this->Low[i]) <= at) &
-        (at < cv::v_load(&this->High[i])) & (u >= left) & (u < right));
-      if (i + 4 > end)
-      {
-        crossing &= (1 << (end - i)) - 1;
-      }
+        cv::v_load(spans.u) + (at - cv::v_load(spans.v)) * cv::v_load(spans.slope);
+      int crossing = cv::v_signmask(
+        (cv::v_load(spans.low) <= at) & (at < cv::v_load(spans.high)) & (u >= left) & (u < right));
+      crossing &= first < begin ? 15 << (begin - first) : 15;
+      crossing &= first + 4 > end ? 15 >> (first + 4 - end) : 15;
       cv::v_store(columns, u);
       for (int k = 0; crossing != 0; ++k, crossing >>= 1)
       {
         if (crossing & 1)
         {
-          visit(this->Segments[i + k], columns[k]);
+          visit(this->Segments[first + k], columns[k]);
         }
       }
     }
@@ -80,10 +80,15 @@ private:
     return static_cast<int>(std::min(std::max(column, 0.0f), this->Columns - 1.0f));
   }
 
-  // By cell; in that of their start, in each row that they touch. Where they lie stands in columns
-  // of its own, with three values more, so that processors compare four at once.
+  // Where four segments lie, so that processors compare them at once.
+  struct SpanBlock
+  {
+    float low[4], high[4], u[4], v[4], slope[4];
+  };
+
+  // By cell; in that of their start, in each row that they touch.
   std::vector<Segment> Segments;
-  std::vector<float> Low, High, U, V, Slope;
+  std::vector<SpanBlock> Spans;
   std::vector<int> Begin; // of each cell and one past the last: rows twice (up and down) x columns
   int Rows = 0;
   int Columns = 0;

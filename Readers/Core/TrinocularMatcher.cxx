@@ -64,6 +64,7 @@ public:
   std::vector<EdgeMatch> Match()
   {
     this->Chosen.resize(this->Edges.tokens.size());
+    this->Support.reserve(this->Images.size() * this->Edges.tokens.size());
     std::vector<std::size_t> ambiguous; // chains
     for (std::size_t chain = 0; chain < this->Edges.NumberOfChains(); ++chain)
     {

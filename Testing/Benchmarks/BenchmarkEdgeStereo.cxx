@@ -134,13 +134,15 @@ void TripletAgainstSGBM(benchmark::State& state)
     ours += Seconds(
       [&]()
       {
-        std::vector<ImageEdges> images;
-        for (int i : { 1, 0, 2 })
-        {
-          images.push_back(
-            { triplet.cameras[i], FindEdges(triplet.pictures[i], EdgeTokenOptions()) });
-        }
-        const auto all = MatchEdges(images[0], { images[1], images[2] }, options);
+        const auto edgesOf = [&](int i) {
+          return ImageEdges{ triplet.cameras[i],
+            FindEdges(triplet.pictures[i], EdgeTokenOptions()) };
+        };
+        const ImageEdges reference = edgesOf(1);
+        std::vector<ImageEdges> others;
+        others.push_back(edgesOf(0));
+        others.push_back(edgesOf(2));
+        const auto all = MatchEdges(reference, others, options);
         matches = std::count_if(
           all.begin(), all.end(), [](const EdgeMatch& match) { return match.images > 0; });
       });
