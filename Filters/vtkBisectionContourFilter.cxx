@@ -62,6 +62,17 @@ Eigen::AlignedBox3d MakeBox(const double b[6])
   return Eigen::AlignedBox3d(Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5]));
 }
 
+/// Whether there are features, but no view with a triangle that could carve anything.
+bool IsMereHull(const freespace::FreespaceUnion& core)
+{
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < core.NumberOfViews(); ++i)
+  {
+    triangles += core.ViewAt(i).NumberOfTriangles();
+  }
+  return triangles == 0 && !core.Hull().IsEmpty();
+}
+
 /// The output's own arrays, for the core to write into.
 freespace::ContourArrays AllocateOutput(
   vtkPolyData* output, std::size_t points, std::size_t triangles, bool isSingle, bool withLabels)
@@ -214,6 +225,13 @@ int vtkBisectionContourFilter::RequestData(
     if (!core)
     {
       vtkErrorMacro("The free space union has no valid disparity maps.");
+      return 0;
+    }
+    if (IsMereHull(*core))
+    {
+      vtkErrorMacro("None of the " << core->NumberOfViews()
+                                   << " maps of the free space union has a usable triangle: "
+                                      "features must be triangulated first.");
       return 0;
     }
   }

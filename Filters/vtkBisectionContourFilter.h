@@ -26,7 +26,8 @@
  *
  * The arrays are there for a vtkFreespaceUnion only. Without a function, with bounds that are not a
  * finite box, or with a setting out of its range, the filter tells an error and its output is
- * empty. A function without any matter is no error: the output is empty. So it is after an abort.
+ * empty. So does a vtkFreespaceUnion with features of which no view has a usable triangle: they
+ * were not triangulated, and the surface would be the hull. A function without any matter is no error: the output is empty. So it is after an abort.
  */
 #ifndef vtkBisectionContourFilter_h
 #define vtkBisectionContourFilter_h

@@ -71,7 +71,8 @@ public:
 
   ///@{
   /**
-   * So many views must agree that a point is free. 1 is the paper. Default 1.
+   * So many views must agree that a point is free. 1 is the paper. Default 1. More than there are
+   * views is an error.
    */
   vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);
@@ -80,7 +81,7 @@ public:
   ///@{
   /**
    * By how much the hull is pushed out, as a fraction of the diagonal of the features' bounding
-   * box. 0 is the paper. Default 0.01.
+   * box. 0 is the paper, 10 and more an error. Default 0.01.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace freespace
 {
@@ -17,6 +18,9 @@ namespace
 
 /// As many as the labels of a surface can tell apart.
 constexpr std::size_t MostViews = 8191;
+
+/// From here on the matter is lost in the box around the hull: somebody took it for a length.
+constexpr double MostMargin = 10.0;
 
 void CheckTriangles(const DisparityMap& map)
 {
@@ -43,10 +47,13 @@ void FreespaceUnionOptions::Check() const
     throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
       ", it must be at least 1.");
   }
-  if (!(this->hullMargin >= 0) || !std::isfinite(this->hullMargin))
+  if (!(this->hullMargin >= 0 && this->hullMargin < MostMargin))
   {
-    throw Error("The margin of the hull is " + std::to_string(this->hullMargin) +
-      ", it must be 0 or greater.");
+    std::ostringstream sentence;
+    sentence << "The margin of the hull is " << this->hullMargin
+             << ", it must be 0 or greater and less than " << MostMargin
+             << ": it is a fraction of the diagonal of the features' box.";
+    throw Error(sentence.str());
   }
 }
 
@@ -59,6 +66,12 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   {
     throw Error("There are " + std::to_string(maps.size()) + " views, at most " +
       std::to_string(MostViews) + " can be united.");
+  }
+  // Nothing but the hull could ever be free. Without any views all is free anyway.
+  if (!maps.empty() && static_cast<std::size_t>(options.minimumViews) > maps.size())
+  {
+    throw Error("The minimum number of views is " + std::to_string(options.minimumViews) +
+      ", but there are only " + std::to_string(maps.size()) + " views.");
   }
   std::vector<Vector3d> features;
   Eigen::AlignedBox3d box;

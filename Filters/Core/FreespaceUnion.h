@@ -14,9 +14,10 @@ namespace freespace
 /// How the free spaces of the views are joined.
 struct FreespaceUnionOptions
 {
-  int minimumViews = 1;     ///< so many views must agree that a point is free; >= 1; 1 is the paper
+  int minimumViews = 1; ///< so many views must agree that a point is free; >= 1, at most as many as
+                        ///< there are; 1 is the paper
   double hullMargin = 0.01; ///< by which the hull is pushed out, as a fraction of the diagonal of
-                            ///< the features' bounding box; >= 0; 0 is the paper
+                            ///< the features' bounding box; >= 0, < 10; 0 is the paper
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -32,7 +33,7 @@ struct FreespaceUnionOptions
 class FreespaceUnion : public ContourField
 {
 public:
-  /// Throws Error when an option is out of range, or a triangle names a point that is not there.
+  /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point that is not there.
   FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor);
 

@@ -384,4 +384,10 @@ TEST(FreespaceUnion, AwkwardInput)
   EXPECT_THROW(FreespaceUnion({}, Options(0, 0.01)), Error);
   EXPECT_THROW(FreespaceUnion({}, Options(1, -0.01)), Error);
   EXPECT_THROW(FreespaceUnion({}, Options(1, NAN)), Error);
+  EXPECT_THROW(FreespaceUnion({}, Options(1, HUGE_VAL)), Error);
+  EXPECT_THROW(FreespaceUnion({}, Options(1, 10.0)), Error);
+  EXPECT_NO_THROW(FreespaceUnion({}, Options(1, 9.9)));
+  const std::vector<DisparityMap> two = RandomMaps(3, 2);
+  EXPECT_NO_THROW(FreespaceUnion(two, Options(2, 0.01)));
+  EXPECT_THROW(FreespaceUnion(two, Options(3, 0.01)), Error);
 }

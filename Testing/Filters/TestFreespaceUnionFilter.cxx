@@ -343,3 +343,43 @@ TEST(vtkBisectionContourFilter, TellsWhatIsWrong)
   EXPECT_GE(errors->Count, 1);
   EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
 }
+
+TEST(vtkBisectionContourFilter, RefusesFeaturesWithoutTriangles)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(maps);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(20);
+  vtkNew<Errors> errors;
+  contour->AddObserver(vtkCommand::ErrorEvent, errors);
+  contour->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(maps->GetBlock(i));
+    view->SetPolys(nullptr);
+    view->Modified();
+    errors->Last.clear();
+    contour->Update();
+    // One view without triangles is fine, all are not.
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells() > 0, i == 0);
+    EXPECT_EQ(errors->Last.empty(), i == 0) << errors->Last;
+  }
+}
+
+TEST(vtkBisectionContourFilter, RefusesMoreViewsThanThereAre)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 2));
+  phi->SetMinimumViews(3);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  vtkNew<Errors> errors, ignored;
+  phi->AddObserver(vtkCommand::ErrorEvent, errors);
+  contour->AddObserver(vtkCommand::ErrorEvent, ignored);
+  contour->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ignored);
+  contour->Update();
+  EXPECT_NE(errors->Last.find("only 2 views"), std::string::npos) << errors->Last;
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+}

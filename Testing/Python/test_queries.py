@@ -84,12 +84,54 @@ class TestQueries(unittest.TestCase):
                 self.assertEqual(run.returncode, 0, run.stderr)
                 lines = run.stdout.split('\n')
                 np.testing.assert_allclose([float(x) for x in lines[1:-1]], answer, atol=1e-9)
-            np.savetxt(os.path.join(folder, 'table.csv'), [[1, 2]], delimiter=',')
-            run = subprocess.run(
-                [os.environ['FREESPACE_PROGRAM'], 'query', 'maps.vtm', '--points', 'table.csv'],
-                cwd=folder, capture_output=True, text=True)
-            self.assertNotEqual(run.returncode, 0)
-            self.assertIn('table.csv', run.stderr)
+
+    def ask(self, table, *options):
+        """Writes the maps and a table of these bytes (None: a folder), and asks for its points."""
+        with tempfile.TemporaryDirectory() as folder:
+            writer = vtkViewBlocksWriter()
+            writer.SetFileName(os.path.join(folder, 'maps.vtm'))
+            writer.SetInputData(self.maps)
+            writer.Write()
+            path = os.path.join(folder, 'table.csv')
+            if table is None:
+                os.mkdir(path)
+            else:
+                with open(path, 'wb') as file:
+                    file.write(table)
+            return subprocess.run(
+                [os.environ['FREESPACE_PROGRAM'], '--quiet', 'query', 'maps.vtm', '--points', 'table.csv',
+                 *options], cwd=folder, capture_output=True, text=True)
+
+    def refuse(self, words, *arguments):
+        run = self.ask(*arguments)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertEqual(run.stderr.count('\n'), 1, run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def test_program_reads_headings_and_byte_order_marks(self):
+        for table in (b'0,0,1\n', b'\xef\xbb\xbf0,0,1\n', b'\xef\xbb\xbfx,y,z\r\n0,0,1\r\n',
+                      b'0e0,0e0,1e0\n', b'\n x;y;z\n\n0 0 1'):
+            with self.subTest(table=table):
+                run = self.ask(table)
+                self.assertEqual((run.returncode, run.stdout), (0, 'free\n1\n'), run.stderr)
+
+    def test_program_refuses_bad_tables(self):
+        for table, words in (
+                (None, 'folder'), (b'', 'empty'), (b'\xef\xbb\xbf', 'empty'), (b'1,2\n', 'line 1'),
+                (b'1;2;3\n', 'line 1'), (b'1;2;3e5\n', 'line 1'), (b'\xef\xbb\xbf1;2;3\n', 'line 1'),
+                (b'nan,0,0\n', 'line 1'), (b'-\n0,0,1\n', 'line 1'), (b'x,y,z\n0,0,1\n0,0,1,4e\n', 'line 3'),
+                (b'x,y,z\nx,y,z\n', 'line 2')):
+            with self.subTest(table=table):
+                self.refuse(['table.csv', words], table)
+
+    def test_program_refuses_bad_settings(self):
+        self.refuse(['only 2 views'], b'0,0,1\n', '--min-views', '3')
+        self.refuse(['margin'], b'0,0,1\n', '--hull-margin', '10')
+        self.maps.GetBlock(0).SetPolys(None)
+        self.assertEqual(self.ask(b'0,0,1\n').returncode, 0)
+        self.maps.GetBlock(1).SetPolys(None)
+        self.refuse(['maps.vtm', 'features', 'triangulate'], b'0,0,1\n')
 
 
 if __name__ == '__main__':

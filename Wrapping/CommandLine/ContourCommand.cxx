@@ -41,7 +41,7 @@ void AddContourCommand(CLI::App& program, Session& session)
     [settings, &session]()
     {
       CheckSurfaceName(settings->output);
-      const auto maps = ReadViews(session, settings->maps);
+      const auto maps = ReadMaps(session, settings->maps);
       WriteSurface(session, settings->contour.Run(session, maps), settings->output);
     }));
 }

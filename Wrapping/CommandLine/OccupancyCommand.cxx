@@ -55,7 +55,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
   command->callback(session.Later(
     [settings, &session]()
     {
-      const auto maps = ReadViews(session, settings->maps);
+      const auto maps = ReadMaps(session, settings->maps);
       vtkNew<vtkOccupancyMapWriter> writer;
       writer->SetInputDataObject(maps);
       writer->SetFileName(settings->output);

@@ -13,6 +13,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -33,36 +37,72 @@ struct Settings
   int minimumViews = 1;
 };
 
-// Rows of so many numbers, parted by commas or blanks. A first row that is no numbers is a heading.
+// Whether a first row names the columns: it has a letter and does not begin like a number, such as
+// "1e3,0,0" or "1;2;3e5".
+bool IsHeading(const std::string& line)
+{
+  char* end = nullptr;
+  std::strtod(line.c_str(), &end);
+  return end == line.c_str() &&
+    std::any_of(line.begin(), line.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+// The numbers of a row; nothing when it has anything else.
+std::vector<double> ReadRow(std::string line)
+{
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<double> values;
+  for (std::string word; words >> word;)
+  {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(values.back()))
+    {
+      return {};
+    }
+  }
+  return values;
+}
+
+// Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
 std::vector<double> ReadTable(const std::string& fileName, std::size_t columns)
 {
   std::ifstream file(fileName);
-  if (!file)
+  if (!file || std::filesystem::is_directory(fileName))
   {
-    throw Error(fileName + " cannot be read.");
+    throw Error("'" + fileName + "' cannot be read" + (file ? ": it is a folder." : "."));
   }
   std::vector<double> numbers;
   std::string line;
+  bool isFirst = true;
   for (int row = 1; std::getline(file, line); ++row)
   {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::vector<double> values;
-    for (double value; words >> value;)
+    if (row == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
     {
-      values.push_back(value);
+      line.erase(0, 3);
     }
-    const bool isBlank = line.find_first_not_of(" \t\r") == std::string::npos;
-    if (isBlank || (row == 1 && values.empty()))
+    if (line.find_first_not_of(" \t\r") == std::string::npos)
     {
       continue;
     }
-    if (values.size() != columns || !(words.eof() || words >> std::ws))
+    const bool isHeading = isFirst && IsHeading(line);
+    isFirst = false;
+    if (isHeading)
     {
-      throw Error(fileName + " has no " + std::to_string(columns) + " numbers in line " +
+      continue;
+    }
+    const std::vector<double> values = ReadRow(line);
+    if (values.size() != columns)
+    {
+      throw Error("'" + fileName + "' has no " + std::to_string(columns) + " numbers in line " +
         std::to_string(row) + ".");
     }
     numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  if (isFirst)
+  {
+    throw Error("'" + fileName + "' is empty: there is no line 1.");
   }
   return numbers;
 }
@@ -144,7 +184,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
         throw Error("There is nothing to ask: give --points or --segments.");
       }
       vtkNew<vtkFreespaceUnion> phi;
-      phi->SetMaps(ReadViews(session, settings->maps));
+      phi->SetMaps(ReadMaps(session, settings->maps));
       phi->SetHullMargin(settings->hullMargin);
       phi->SetMinimumViews(settings->minimumViews);
       if (!phi->IsValid())

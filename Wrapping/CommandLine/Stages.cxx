@@ -168,7 +168,7 @@ void ContourStage::AddOptions(CLI::App& command)
   command
     .add_option("--hull-margin", this->HullMargin,
       "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
-    ->check(notNegative)
+    ->check(CLI::Range(0.0, 10.0))
     ->capture_default_str()
     ->group("Surface");
   command
@@ -210,6 +210,23 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadViews(Session& session, const std::str
   reader->SetFileName(fileName);
   session.Run(reader, "read");
   return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::string& fileName)
+{
+  vtkSmartPointer<vtkMultiBlockDataSet> maps = ReadViews(session, fileName);
+  vtkIdType triangles = 0;
+  for (unsigned int i = 0; i < maps->GetNumberOfBlocks(); ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(maps->GetBlock(i));
+    triangles += view ? view->GetNumberOfPolys() : 0;
+  }
+  if (triangles == 0 && maps->GetNumberOfPoints() > 0)
+  {
+    throw Error("'" + fileName +
+      "' holds features, not disparity maps: run 'freespace triangulate' on it first.");
+  }
+  return maps;
 }
 
 void WriteViews(Session& session, vtkMultiBlockDataSet* views, const std::string& fileName)

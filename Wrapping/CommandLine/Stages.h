@@ -67,6 +67,9 @@ private:
 /// Reads a .vtm of features or disparity maps.
 vtkSmartPointer<vtkMultiBlockDataSet> ReadViews(Session& session, const std::string& fileName);
 
+/// The same for what 'triangulate' wrote. Throws Error when there are features but no triangles.
+vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::string& fileName);
+
 /// Writes them.
 void WriteViews(Session& session, vtkMultiBlockDataSet* views, const std::string& fileName);
 
