@@ -58,15 +58,15 @@ struct Sighting
   int sourceView = 0;
 };
 
-// A point that may have to be inserted, linked into the list of its triangle.
-struct Candidate : Sighting
+// A point that may have to be inserted, linked into the list of its triangle. No more than is looked
+// at again and again, and in the order of a space-filling curve: neighbours share the cache.
+struct Candidate
 {
-  explicit Candidate(const Sighting& sighting)
-    : Sighting(sighting)
-  {
-  }
-  double height = 0; // above the surface, disparity
-  int next = -1;     // in the same triangle
+  Pixel pixel;
+  double disparity;
+  double height; // above the surface, disparity
+  int next;      // in the same triangle
+  int given;     // index of the sighting
 };
 
 bool Sight(const Camera& camera, const Eigen::Vector3d& point, int sourceView, Sighting& sighting)
@@ -137,14 +137,14 @@ private:
   {
     double height;
     int candidate;
+    int given;
     Face face;
     unsigned int version;
 
     // The queue serves the highest; of equals, the one that was given first.
     bool operator<(const Highest& other) const
     {
-      return this->height != other.height ? this->height < other.height
-                                          : this->candidate > other.candidate;
+      return this->height != other.height ? this->height < other.height : this->given > other.given;
     }
   };
 
@@ -160,6 +160,7 @@ private:
   std::string Name;
   std::vector<Sighting> Points;  // of the triangulation, by the vertex' info
   std::vector<Vertex> OfFeature; // where each feature is or was hidden
+  std::vector<Sighting> Given;   // by the other views
   std::vector<Candidate> Candidates;
   Triangulation Delaunay;
   std::priority_queue<Highest> Queue;
@@ -261,13 +262,13 @@ void DisparitySurface<Triangulation>::PutInto(Face face, int candidate)
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::Enqueue(Face face)
 {
-  Highest highest{ 0, -1, face, face->info().version };
+  Highest highest{ 0, -1, -1, face, face->info().version };
   for (int c = face->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
   {
     const Candidate& point = this->Candidates[c];
     if (point.height > this->Tolerance * point.disparity)
     {
-      const Highest entry{ point.height, c, face, face->info().version };
+      const Highest entry{ point.height, c, point.given, face, face->info().version };
       if (highest.candidate < 0 || highest < entry)
       {
         highest = entry;
@@ -284,25 +285,20 @@ void DisparitySurface<Triangulation>::Enqueue(Face face)
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::AddCandidates(const std::vector<Sighting>& sightings)
 {
-  std::vector<Face> faces(sightings.size());
+  this->Given = sightings;
   Face hint;
   for (const std::size_t i : SpatialOrder(sightings))
   {
+    const Sighting& sighting = sightings[i];
     typename Triangulation::Locate_type type;
     int index = 0;
-    const Face face = this->Delaunay.locate(sightings[i].pixel, type, index, hint);
-    hint = face;
+    hint = this->Delaunay.locate(sighting.pixel, type, index, hint);
     if (type != Triangulation::OUTSIDE_CONVEX_HULL)
     {
-      faces[i] = face;
-    }
-  }
-  for (std::size_t i = 0; i < sightings.size(); ++i)
-  {
-    if (faces[i] != Face())
-    {
-      this->Candidates.emplace_back(sightings[i]);
-      this->PutInto(faces[i], static_cast<int>(this->Candidates.size()) - 1);
+      const int candidate = static_cast<int>(this->Candidates.size());
+      this->Candidates.push_back(
+        { sighting.pixel, sighting.disparity, 0.0, -1, static_cast<int>(i) });
+      this->PutInto(hint, candidate);
     }
   }
 }
@@ -373,7 +369,7 @@ void DisparitySurface<Triangulation>::Redistribute(
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
 {
-  const Sighting& sighting = this->Candidates[candidate];
+  const Sighting& sighting = this->Given[this->Candidates[candidate].given];
   typename Triangulation::Locate_type type;
   int index = 0;
   face = this->Delaunay.locate(sighting.pixel, type, index, face);

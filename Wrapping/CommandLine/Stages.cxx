@@ -112,6 +112,12 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Disparity maps");
   command
+    .add_option("--see-through", this->SeeThroughViews,
+      "A feature that so many other views see through is an outlier; 0: none is")
+    ->check(CLI::Range(0, 1000))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--longest-edge", this->LongestEdge,
       "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
     ->check(notNegative)
@@ -147,6 +153,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetInputConnection(support->GetOutputPort());
   maps->SetTolerance(this->Tolerance);
   maps->SetSupportingNeighbors(this->SupportingNeighbors);
+  maps->SetSeeThroughViews(this->SeeThroughViews);
   maps->SetLongestEdge(this->LongestEdge);
   maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
   maps->SetKeepEdges(this->KeepEdges);

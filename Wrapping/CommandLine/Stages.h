@@ -43,6 +43,7 @@ private:
   int SupportNeighbors = 0;
   double Tolerance = 0.0002;
   int SupportingNeighbors = 2;
+  int SeeThroughViews = 0;
   double LongestEdge = 0;
   double GreatestDepthRatio = 0;
   bool KeepEdges = false;
