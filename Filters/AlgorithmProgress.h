@@ -5,6 +5,7 @@
 #include "Progress.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
 
 namespace freespace
 {
@@ -16,6 +17,26 @@ inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
     algorithm->UpdateProgress(fraction);
     return algorithm->GetAbortExecute() == 0;
   });
+}
+
+/// For the catch (...) that ends a RequestData: empties the output, tells VTK what the core threw and
+/// gives the value to return. A stop on request is no error.
+inline int AfterException(vtkAlgorithm* algorithm, vtkDataObject* output)
+{
+  output->Initialize();
+  try
+  {
+    throw;
+  }
+  catch (const Aborted&)
+  {
+    return 1;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorWithObjectMacro(algorithm, << error.what());
+  }
+  return 0;
 }
 
 }

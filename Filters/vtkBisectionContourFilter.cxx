@@ -261,15 +261,9 @@ int vtkBisectionContourFilter::RequestData(
       KeepObserved(output);
     }
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }

@@ -60,15 +60,9 @@ int vtkDelaunayDisparityFilter::RequestData(
         output, static_cast<unsigned int>(i), maps[i].name, freespace::BlockFromMap(maps[i]));
     }
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }

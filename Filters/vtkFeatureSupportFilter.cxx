@@ -98,15 +98,9 @@ int vtkFeatureSupportFilter::RequestData(
           this->MinimumNeighbors));
     }
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }

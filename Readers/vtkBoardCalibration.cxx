@@ -116,15 +116,9 @@ int vtkBoardCalibration::RequestData(
     freespace::BlocksFromModel(result.model, ViewsOf(result.model), output);
     *this->Calibrated = std::move(result);
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }

@@ -136,15 +136,9 @@ int vtkEdgeStereoReader::RequestData(
         freespace::BlockFromEdgeView(views[i]));
     }
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }

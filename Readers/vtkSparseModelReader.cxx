@@ -48,15 +48,9 @@ int vtkSparseModelReader::RequestData(
     freespace::BlocksFromModel(model, views, output);
     progress(1.0);
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this, output);
   }
   return 1;
 }
