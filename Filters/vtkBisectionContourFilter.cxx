@@ -9,12 +9,14 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -73,31 +75,22 @@ bool IsMereHull(const freespace::FreespaceUnion& core)
   return triangles == 0 && !core.Hull().IsEmpty();
 }
 
-/// The output's own arrays, for the core to write into.
-freespace::ContourArrays AllocateOutput(
-  vtkPolyData* output, std::size_t points, std::size_t triangles, bool isSingle, bool withLabels)
+/// The output's own arrays, for the core to write into. In 32 bits, which are enough and half the
+/// memory.
+freespace::ContourArrays AllocateOutput(vtkPolyData* output, vtkTypeInt32Array* corners,
+  const freespace::ContourSize& size, bool isSingle, bool withLabels)
 {
   freespace::ContourArrays arrays;
   vtkNew<vtkPoints> outputPoints;
   outputPoints->SetDataType(isSingle ? VTK_FLOAT : VTK_DOUBLE);
-  outputPoints->SetNumberOfPoints(static_cast<vtkIdType>(points));
+  outputPoints->SetNumberOfPoints(static_cast<vtkIdType>(size.points));
   output->SetPoints(outputPoints);
   void* coordinates = outputPoints->GetVoidPointer(0);
   (isSingle ? reinterpret_cast<void*&>(arrays.singlePoints)
             : reinterpret_cast<void*&>(arrays.doublePoints)) = coordinates;
 
-  // 32 bits are enough, and half the memory.
-  const vtkIdType n = static_cast<vtkIdType>(triangles);
-  vtkNew<vtkTypeInt32Array> offsets, corners;
+  const vtkIdType n = static_cast<vtkIdType>(size.triangles);
   corners->SetNumberOfValues(3 * n);
-  offsets->SetNumberOfValues(n + 1);
-  for (vtkIdType t = 0; t <= n; ++t)
-  {
-    offsets->SetValue(t, static_cast<vtkTypeInt32>(3 * t));
-  }
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, corners);
-  output->SetPolys(cells);
   arrays.triangles = corners->GetPointer(0);
   if (withLabels)
   {
@@ -114,6 +107,36 @@ freespace::ContourArrays AllocateOutput(
     arrays.kind = reinterpret_cast<freespace::SurfaceKind*>(kind->GetPointer(0));
   }
   return arrays;
+}
+
+/// Marks the points that belong to other pieces.
+void MarkForeignPoints(vtkPolyData* output, const freespace::ContourSize& size)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(static_cast<vtkIdType>(size.points));
+  for (std::size_t i = 0; i < size.points; ++i)
+  {
+    ghosts->SetValue(
+      static_cast<vtkIdType>(i), i < size.ownPoints ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
+  }
+  output->GetPointData()->AddArray(ghosts);
+}
+
+/// Makes the corners cells. What cells need beside is made last: the core has let go of its memory
+/// then.
+void SetTriangles(vtkPolyData* output, vtkTypeInt32Array* corners)
+{
+  const vtkIdType n = corners->GetNumberOfValues() / 3;
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(n + 1);
+  for (vtkIdType t = 0; t <= n; ++t)
+  {
+    offsets->SetValue(t, static_cast<vtkTypeInt32>(3 * t));
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, corners);
+  output->SetPolys(cells);
 }
 
 /// Drops all triangles but those of feature triangles, and the points that only they had.
@@ -189,7 +212,7 @@ vtkMTimeType vtkBisectionContourFilter::GetMTime()
 int vtkBisectionContourFilter::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  outputVector->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), this->SharpEdges ? 0 : 1);
+  outputVector->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
   return 1;
 }
 
@@ -210,8 +233,7 @@ int vtkBisectionContourFilter::RequestData(
   options.exact = this->ExactCrossings;
   options.sharp = this->SharpEdges;
   options.sharpAngle = this->SharpAngle;
-  if (!this->SharpEdges &&
-    information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
+  if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
   {
     options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
     options.pieces = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
@@ -252,10 +274,18 @@ int vtkBisectionContourFilter::RequestData(
     const freespace::ContourField& field =
       direct ? static_cast<const freespace::ContourField&>(*core) : function;
     const bool isSingle = freespace::SinglePrecisionSuffices(bounds, options);
-    const auto allocate = [&](std::size_t points, std::size_t triangles)
-    { return AllocateOutput(output, points, triangles, isSingle, direct); };
+    vtkNew<vtkTypeInt32Array> corners;
+    const auto allocate = [&](const freespace::ContourSize& size)
+    {
+      if (options.pieces > 1)
+      {
+        MarkForeignPoints(output, size);
+      }
+      return AllocateOutput(output, corners, size, isSingle, direct);
+    };
     freespace::BisectionContour(field, bounds, options, allocate,
       freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
+    SetTriangles(output, corners);
     if (this->ObservedOnly && direct)
     {
       KeepObserved(output);

@@ -24,6 +24,11 @@
  * Silhouette walls stand on the border of a view's map, and where a triangle that the view sees
  * edge-on (above 85 degrees) spans a jump in depth, from an occluding edge to what lies behind.
  *
+ * Honours UPDATE_PIECE_NUMBER and UPDATE_NUMBER_OF_PIECES: a piece is open where it meets others, and
+ * has exactly their points there, which come last and are marked as duplicates in the point array
+ * vtkGhostType. The other points of all pieces, one piece after the other, are those of the whole
+ * surface, and so are the triangles.
+ *
  * The arrays are there for a vtkFreespaceUnion only. Without a function, with bounds that are not a
  * finite box, or with a setting out of its range, the filter tells an error and its output is
  * empty. So does a vtkFreespaceUnion with features of which no view has a usable triangle: they
@@ -101,8 +106,7 @@ public:
   /**
    * Rebuild sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
    * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The
-   * surface stays closed, 2-manifold and free of self-intersection. It is then made whole, not in
-   * pieces. Default off, 60 degrees: features with noise tilt small triangles
+   * surface stays closed, 2-manifold and free of self-intersection. Default off, 60 degrees: features with noise tilt small triangles
    * by tens of degrees.
    */
   vtkSetMacro(SharpEdges, bool);

@@ -11,8 +11,12 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <unordered_map>
+#include <unordered_set>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace freespace
 {
@@ -42,10 +46,6 @@ void ContourOptions::Check() const
     throw Error("The sharp angle is " + std::to_string(this->sharpAngle) +
       " degrees, it must be between 0 and 180.");
   }
-  if (this->sharp && this->pieces > 1)
-  {
-    throw Error("A contour with sharp edges cannot be made in pieces.");
-  }
   if (this->pieces < 1 || this->piece < 0 || this->piece >= this->pieces)
   {
     throw Error("There is no piece " + std::to_string(this->piece) + " of " +
@@ -66,8 +66,19 @@ namespace
 /// Cells along the side of a region: what one thread does at a time.
 constexpr int RegionSize = 4 * ContourBlock::Size;
 
-/// So many regions are done between two looks at the progress.
+/// So much is done between two looks at the progress.
 constexpr std::size_t RegionsAtATime = 16;
+constexpr std::size_t RangesAtATime = 1024;
+constexpr std::size_t PlacesAtATime = 2048;
+
+/// Gives pages that hold nothing any more back to the system, where the C library does not do it by
+/// itself: the mesh grows into them.
+void ReturnFreeMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 /// A part of the lattice that the surface may pass.
 struct Region
@@ -75,6 +86,7 @@ struct Region
   CellRange range;
   FieldScope scope;
   bool isOwn; ///< of this piece; otherwise only its vertices are wanted
+  int layer;
   std::vector<ContourBlock> blocks;
 };
 
@@ -85,15 +97,18 @@ struct SharpVertex
   Vector3d position;
 };
 
-/// Where a block's vertices and triangles come in the mesh.
+/// Where a block's vertices and triangles come in the mesh. The vertices are those of the block, then
+/// the sharp ones.
 struct BlockPlace
 {
   const ContourBlock* block;
   bool isOwn;
   std::int32_t firstVertex;
   std::size_t firstTriangle;
-  std::vector<SharpVertex> sharp;   ///< in the order of their cells, after the block's own vertices
+  std::vector<SharpVertex> sharp;   ///< in the order of their cells
   std::vector<std::int32_t> vertex; ///< of another piece's block: place in the mesh, or -1
+
+  std::size_t NumberOfVertices() const { return this->block->keys.size() + this->sharp.size(); }
 };
 
 std::uint64_t PlaceKey(const LatticeIndex& at)
@@ -102,13 +117,14 @@ std::uint64_t PlaceKey(const LatticeIndex& at)
   return bits(at[0]) | bits(at[1]) << 21 | bits(at[2]) << 42;
 }
 
-/// Descends the octree of boxes below a range to those of the wanted size that are mixed.
-template <typename Visit>
+/// Descends the octree of boxes below a range to those of the wanted size that are mixed. Looks at
+/// those only that are wanted.
+template <typename Want, typename Visit>
 void Descend(const BoundedField& field, const ContourLattice& lattice, const CellRange& range,
-  int size, const FieldScope& parent, Visit&& visit)
+  int size, const FieldScope& parent, Want&& isWanted, Visit&& visit)
 {
   FieldScope scope;
-  if (field.Classify(range.Box(lattice), parent, scope) != BoxContent::Mixed)
+  if (!isWanted(range) || field.Classify(range.Box(lattice), parent, scope) != BoxContent::Mixed)
   {
     return;
   }
@@ -119,7 +135,7 @@ void Descend(const BoundedField& field, const ContourLattice& lattice, const Cel
   }
   for (const CellRange& part : range.Parts(size))
   {
-    Descend(field, lattice, part, size, scope, visit);
+    Descend(field, lattice, part, size, scope, isWanted, visit);
   }
 }
 
@@ -137,116 +153,162 @@ public:
   void Run(const AllocateContour& allocate, const Progress& progress,
     const ParallelFor& parallelFor, bool isThreadSafe)
   {
-    this->FindRegions();
-    const std::size_t portion = isThreadSafe ? RegionsAtATime : 1;
-    const ParallelFor within = isThreadSafe ? parallelFor : ParallelFor(SerialFor);
-    const std::size_t count = this->Regions.size();
-    for (std::size_t done = 0; done < count; done += portion)
-    {
-      progress(0.9 * done / count);
-      within(std::min(portion, count - done),
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t i = done + begin; i < done + end; ++i)
-          {
-            this->RunRegion(this->Regions[i]);
-          }
-        });
-    }
-    progress(0.9);
-    this->PlaceBlocks(parallelFor);
-    progress(0.95);
-    const ContourArrays arrays = allocate(this->Vertices, this->Triangles);
-    this->Write(arrays, parallelFor);
-    if (this->Options.sharp)
-    {
-      this->FlipToSharpEdges(arrays);
-    }
+    this->FindRegions(progress.Part(0.0, 0.05));
+    this->FindBlocks(
+      progress.Part(0.05, 0.8), isThreadSafe ? parallelFor : SerialFor, isThreadSafe);
+    this->PlaceBlocks(progress.Part(0.8, 0.9), parallelFor);
+    const ContourArrays arrays = allocate({ this->Vertices, this->OwnVertices, this->Triangles });
+    this->Write(arrays, progress.Part(0.9, 1.0), parallelFor);
     progress(1.0);
   }
 
 private:
-  /// The regions of this piece, and those above them, whose vertices its upper faces need.
-  void FindRegions()
+  /// The regions of this piece, and those next to them, whose vertices its triangles need.
+  void FindRegions(const Progress& progress)
   {
     const CellRange all = { { 0, 0, 0 }, this->Lattice.cells };
-    Descend(this->Field, this->Lattice, all, RegionSize, this->Field.Root(),
+    std::size_t asked = 0;
+    Descend(
+      this->Field, this->Lattice, all, RegionSize, this->Field.Root(),
+      [&](const CellRange&)
+      {
+        if (asked++ % RangesAtATime == 0)
+        {
+          progress(0.0);
+        }
+        return true;
+      },
       [&](const CellRange& range, FieldScope& scope) {
-        this->Regions.push_back({ range, std::move(scope), true, {} });
+        this->Regions.push_back({ range, std::move(scope), true, 0, {} });
       });
-    if (this->Options.pieces == 1)
+    // Layer by layer along the longest side, so that what was written can soon be let go.
+    const auto& cells = this->Lattice.cells;
+    const auto height = [axis = std::max_element(cells.begin(), cells.end()) - cells.begin()](
+                          const Region& region) { return region.range.low[axis] / RegionSize; };
+    std::stable_sort(this->Regions.begin(), this->Regions.end(),
+      [&](const Region& a, const Region& b) { return height(a) < height(b); });
+    for (Region& region : this->Regions)
     {
-      return;
+      region.layer = height(region);
     }
-    const std::size_t count = this->Regions.size(), pieces = this->Options.pieces;
-    std::unordered_map<std::uint64_t, std::size_t> places;
-    for (std::size_t i = 0; i < count; ++i)
+    if (this->Options.pieces > 1)
     {
-      places[PlaceKey(this->Regions[i].range.low)] = i;
-      this->Regions[i].isOwn = i * pieces / count == static_cast<std::size_t>(this->Options.piece);
+      this->KeepPiece();
     }
-    std::vector<char> isWanted(count, 0);
-    for (const Region& region : this->Regions)
-    {
-      for (int upper = 0; upper < 8 && region.isOwn; ++upper)
-      {
-        LatticeIndex low = region.range.low;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          low[axis] += (upper >> axis & 1) * RegionSize;
-        }
-        const auto place = places.find(PlaceKey(low));
-        if (place != places.end())
-        {
-          isWanted[place->second] = 1;
-        }
-      }
-    }
-    std::vector<Region> wanted;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (isWanted[i])
-      {
-        wanted.push_back(std::move(this->Regions[i]));
-      }
-    }
-    this->Regions = std::move(wanted);
   }
 
-  void RunRegion(Region& region) const
+  void KeepPiece()
   {
-    Descend(this->Field, this->Lattice, region.range, ContourBlock::Size, region.scope,
+    const std::size_t count = this->Regions.size(), pieces = this->Options.pieces;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      Region& region = this->Regions[i];
+      region.isOwn = i * pieces / count == static_cast<std::size_t>(this->Options.piece);
+      if (region.isOwn)
+      {
+        this->OwnRegions.insert(PlaceKey(region.range.low));
+      }
+    }
+    const auto isAway = [this](const Region& region)
+    { return !region.isOwn && !this->IsBesideOwn(region.range.low, RegionSize); };
+    this->Regions.erase(
+      std::remove_if(this->Regions.begin(), this->Regions.end(), isAway), this->Regions.end());
+  }
+
+  /// Whether a box of cells touches a region of this piece such that this needs vertices of it.
+  bool IsBesideOwn(const LatticeIndex& low, int size) const
+  {
+    // Triangles have corners in boxes above their own; to sharp vertices they also reach below.
+    const int above = this->Options.sharp ? 1 : 0;
+    for (int k = -1; k <= above; ++k)
+    {
+      for (int j = -1; j <= above; ++j)
+      {
+        for (int i = -1; i <= above; ++i)
+        {
+          const LatticeIndex other = { low[0] + i * size, low[1] + j * size, low[2] + k * size };
+          if (std::min({ other[0], other[1], other[2] }) >= 0 &&
+            this->OwnRegions.count(PlaceKey({ other[0] / RegionSize * RegionSize,
+              other[1] / RegionSize * RegionSize, other[2] / RegionSize * RegionSize })))
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  void FindBlocks(const Progress& progress, const ParallelFor& parallelFor, bool isThreadSafe)
+  {
+    const std::size_t portion = isThreadSafe ? RegionsAtATime : 1;
+    const std::size_t count = this->Regions.size();
+    for (std::size_t done = 0; done < count; done += portion)
+    {
+      const double fraction = static_cast<double>(done) / count;
+      progress(fraction);
+      parallelFor(std::min(portion, count - done),
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = done + begin; i < done + end; ++i)
+          {
+            // Only the caller's thread may look at the progress.
+            this->RunRegion(this->Regions[i], isThreadSafe ? Progress() : progress, fraction);
+          }
+        });
+    }
+    progress(1.0);
+  }
+
+  void RunRegion(Region& region, const Progress& progress, double fraction) const
+  {
+    Descend(
+      this->Field, this->Lattice, region.range, ContourBlock::Size, region.scope,
+      [&](const CellRange& range)
+      {
+        return region.isOwn || range.Longest() > ContourBlock::Size ||
+          this->IsBesideOwn(range.low, ContourBlock::Size);
+      },
       [&](const CellRange& range, const FieldScope& scope)
       {
+        progress(fraction);
         ContourBlock block(this->Field, this->Lattice, this->Crossing, range, scope);
         if (!block.keys.empty() || !block.cells.empty())
         {
           region.blocks.push_back(std::move(block));
         }
       });
+    region.blocks.shrink_to_fit();
     region.scope = {};
   }
 
-  void PlaceBlocks(const ParallelFor& parallelFor)
+  void PlaceBlocks(const Progress& progress, const ParallelFor& parallelFor)
   {
+    std::size_t count = 0;
     for (const Region& region : this->Regions)
     {
+      count += region.blocks.size();
+    }
+    this->Places.reserve(count);
+    this->Index.reserve(count);
+    for (std::size_t r = 0; r < this->Regions.size(); ++r)
+    {
+      const Region& region = this->Regions[r];
+      if (r == 0 || region.layer != this->Regions[r - 1].layer)
+      {
+        this->Layers.push_back({ r, this->Places.size() });
+      }
       for (const ContourBlock& block : region.blocks)
       {
         this->Index[PlaceKey(block.at)] = this->Places.size();
         this->Places.push_back({ &block, region.isOwn, 0, 0, {}, {} });
       }
     }
+    this->Layers.push_back({ this->Regions.size(), this->Places.size() });
     if (this->Options.sharp)
     {
-      parallelFor(this->Places.size(),
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            this->FindSharpVertices(this->Places[i]);
-          }
-        });
+      this->ForEachPlace(
+        progress, parallelFor, [this](std::size_t i) { this->FindSharpVertices(this->Places[i]); });
     }
     for (BlockPlace& place : this->Places)
     {
@@ -255,14 +317,43 @@ private:
       if (place.isOwn)
       {
         // A fan about a vertex of its own has two triangles more.
-        this->Vertices += place.block->keys.size() + place.sharp.size();
+        this->Vertices += place.NumberOfVertices();
         this->Triangles += place.block->NumberOfTriangles() + 2 * place.sharp.size();
       }
       this->CheckSize();
     }
+    this->OwnVertices = this->Vertices;
     for (std::size_t i = 0; i < this->Places.size() && this->Options.pieces > 1; ++i)
     {
       this->CountForeign(this->Places[i]);
+    }
+  }
+
+  /// Calls work(place) for all places, in parallel, with looks at the progress in between.
+  template <typename Work>
+  void ForEachPlace(const Progress& progress, const ParallelFor& parallelFor, Work&& work,
+    const std::function<void(std::size_t layer)>& afterLayer = {}) const
+  {
+    const std::size_t count = this->Places.size();
+    for (std::size_t layer = 0; layer + 1 < this->Layers.size(); ++layer)
+    {
+      const std::size_t end = this->Layers[layer + 1].place;
+      for (std::size_t first = this->Layers[layer].place; first < end; first += PlacesAtATime)
+      {
+        progress(static_cast<double>(first) / count);
+        parallelFor(std::min(PlacesAtATime, end - first),
+          [&](std::size_t from, std::size_t to)
+          {
+            for (std::size_t i = first + from; i < first + to; ++i)
+            {
+              work(i);
+            }
+          });
+      }
+      if (afterLayer)
+      {
+        afterLayer(layer);
+      }
     }
   }
 
@@ -339,19 +430,18 @@ private:
     {
       return;
     }
-    ForEachTriangle(own,
-      [&](std::size_t, const std::array<Corner, 3>& corners, std::size_t, auto)
+    this->ForEachTriangle(own,
+      [&](std::size_t, const std::array<Vertex, 3>& corners, bool)
       {
-        for (const Corner& corner : corners)
+        for (const Vertex& corner : corners)
         {
-          BlockPlace* owner = nullptr;
-          const std::size_t vertex = this->FindVertex(own, corner.point, corner.axis, owner);
-          if (vertex != Missing && !owner->isOwn)
+          BlockPlace& owner = *corner.owner;
+          if (!owner.isOwn)
           {
-            owner->vertex.resize(owner->block->keys.size(), -1);
-            if (owner->vertex[vertex] < 0)
+            owner.vertex.resize(owner.NumberOfVertices(), -1);
+            if (owner.vertex[corner.vertex] < 0)
             {
-              owner->vertex[vertex] = static_cast<std::int32_t>(this->Vertices++);
+              owner.vertex[corner.vertex] = static_cast<std::int32_t>(this->Vertices++);
               this->CheckSize();
             }
           }
@@ -359,65 +449,102 @@ private:
       });
   }
 
-  /// A corner of a triangle: on a lattice edge, from a point up an axis, or the cell's sharp vertex.
-  struct Corner
+  /// A vertex: of which block, and its place in it.
+  struct Vertex
   {
-    LatticeIndex point;
-    int axis;
-    std::ptrdiff_t sharp; ///< place in the block's list, or -1
+    BlockPlace* owner;
+    std::size_t vertex;
   };
 
-  /// Calls visit(triangle, its three corners, place of its cell, its two last cube edges) for all
-  /// triangles of a block. In the fan about a sharp vertex, this is the first corner.
+  /// Calls visit(triangle, its three corners, whether it is in the fan about a sharp vertex) for all
+  /// triangles of a block. In a fan, the sharp vertex is the first corner. False when a vertex is not
+  /// there.
   template <typename Visit>
-  static void ForEachTriangle(const BlockPlace& place, Visit&& visit)
+  bool ForEachTriangle(const BlockPlace& place, Visit&& visit) const
   {
     const CubeCases& cases = CubeCases::Get();
     const ContourBlock& block = *place.block;
     std::size_t triangle = 0, sharp = 0;
+    bool whole = true;
+    Neighbors neighbors = {};
     for (std::size_t c = 0; c < block.cells.size(); ++c)
     {
       const LatticeIndex cell = CellOf(block.cells[c]);
-      const auto corner = [&cell](int edge) {
-        return Corner{ FirstPoint(cell, edge), edge >> 2, -1 };
-      };
       const bool isSharp = sharp < place.sharp.size() && place.sharp[sharp].cell == c;
       for (const CubeCases::Loop& loop : cases.Loops(block.cases[c]))
       {
         const std::size_t size = loop.size();
-        const Corner apex =
-          isSharp ? Corner{ cell, 0, static_cast<std::ptrdiff_t>(sharp) } : corner(loop[0]);
         for (std::size_t n = isSharp ? 0 : 2; n < size; ++n, ++triangle)
         {
           const int from = loop[n > 0 ? n - 1 : size - 1], to = loop[n];
-          visit(triangle, std::array<Corner, 3>{ apex, corner(from), corner(to) }, c,
-            std::make_pair(from, to));
+          std::array<Vertex, 3> corners;
+          if (isSharp)
+          {
+            corners[0] = { const_cast<BlockPlace*>(&place), block.keys.size() + sharp };
+          }
+          if ((!isSharp && !this->FindCorner(place, cell, loop[0], neighbors, corners[0])) ||
+            !this->FindCorner(place, cell, from, neighbors, corners[1]) ||
+            !this->FindCorner(place, cell, to, neighbors, corners[2]))
+          {
+            whole = false;
+            continue;
+          }
+          if (isSharp)
+          {
+            this->JoinSharp(place, sharp, CubeCases::CommonFace(from, to), corners[2]);
+          }
+          visit(triangle, corners, isSharp);
         }
       }
       sharp += isSharp;
     }
+    return whole;
+  }
+
+  /// The blocks above a block, as far as they were looked for.
+  using Neighbors = std::array<BlockPlace*, 8>;
+
+  /// The vertex on a cube edge of a cell.
+  bool FindCorner(const BlockPlace& place, const LatticeIndex& cell, int edge, Neighbors& neighbors,
+    Vertex& corner) const
+  {
+    const int size = ContourBlock::Size;
+    const LatticeIndex point = FirstPoint(cell, edge);
+    BlockPlace*& owner = neighbors[point[0] / size | point[1] / size << 1 | point[2] / size << 2];
+    corner.vertex = this->FindVertex(place, point, edge >> 2, owner);
+    corner.owner = owner;
+    return corner.vertex != Missing;
   }
 
   static constexpr std::size_t Missing = static_cast<std::size_t>(-1);
+
+  BlockPlace* FindPlace(const LatticeIndex& at) const
+  {
+    const auto place = this->Index.find(PlaceKey(at));
+    return place == this->Index.end() ? nullptr
+                                      : const_cast<BlockPlace*>(&this->Places[place->second]);
+  }
 
   /// The vertex on a lattice edge, in the block that owns it.
   std::size_t FindVertex(
     const BlockPlace& from, LatticeIndex point, int axis, BlockPlace*& owner) const
   {
-    LatticeIndex at = from.block->at;
-    for (int a = 0; a < 3; ++a)
+    if (!owner)
     {
-      at[a] += point[a] / ContourBlock::Size;
-      point[a] %= ContourBlock::Size;
-    }
-    if (!owner || owner->block->at != at)
-    {
-      const auto place = this->Index.find(PlaceKey(at));
-      if (place == this->Index.end())
+      LatticeIndex at = from.block->at;
+      for (int a = 0; a < 3; ++a)
+      {
+        at[a] += point[a] / ContourBlock::Size;
+      }
+      owner = this->FindPlace(at);
+      if (!owner)
       {
         return Missing;
       }
-      owner = const_cast<BlockPlace*>(&this->Places[place->second]);
+    }
+    for (int& index : point)
+    {
+      index %= ContourBlock::Size;
     }
     const auto& keys = owner->block->keys;
     const auto key = std::lower_bound(keys.begin(), keys.end(), ContourBlock::Key(point, axis));
@@ -425,19 +552,96 @@ private:
                                                                        : Missing;
   }
 
-  void Write(const ContourArrays& arrays, const ParallelFor& parallelFor) const
+  /// Two triangles meet on the face between two cells with sharp vertices s and t: (s, u, v) and
+  /// (t, v, u). To join s and t by an edge, instead of the one that parts them, they become (s, u, t)
+  /// and (t, v, s): the last corner of each changes. Both cells decide alike.
+  void JoinSharp(const BlockPlace& place, std::size_t sharp, int face, Vertex& last) const
+  {
+    const SharpVertex& own = place.sharp[sharp];
+    if (CubeCases::IsAmbiguous(place.block->cases[own.cell], face))
+    {
+      return;
+    }
+    const LatticeIndex cell = CellOf(place.block->cells[own.cell]);
+    const int axis = face >> 1, isUpper = face & 1;
+    LatticeIndex other = cell, faceCell = cell;
+    other[axis] += isUpper ? 1 : -1;
+    faceCell[axis] += isUpper;
+    Vertex joined;
+    if (!this->FindSharp(place, other, joined))
+    {
+      return;
+    }
+    const Vector3d& position =
+      joined.owner->sharp[joined.vertex - joined.owner->block->keys.size()].position;
+    const Vector3d faceLow = this->CellCorner(*place.block, faceCell);
+    if (this->MayJoin(
+          isUpper ? own.position : position, isUpper ? position : own.position, faceLow, axis))
+    {
+      last = joined;
+    }
+  }
+
+  /// The sharp vertex of a cell of the block or next to it.
+  bool FindSharp(const BlockPlace& from, LatticeIndex cell, Vertex& found) const
+  {
+    const int size = ContourBlock::Size;
+    LatticeIndex at = from.block->at;
+    for (int a = 0; a < 3; ++a)
+    {
+      at[a] += (cell[a] + size) / size - 1;
+      cell[a] = (cell[a] + size) % size;
+    }
+    found.owner = at == from.block->at ? const_cast<BlockPlace*>(&from) : this->FindPlace(at);
+    if (!found.owner)
+    {
+      return false;
+    }
+    const auto& cells = found.owner->block->cells;
+    const auto& sharp = found.owner->sharp;
+    const int place = (cell[2] * size + cell[1]) * size + cell[0];
+    const auto vertex = std::lower_bound(sharp.begin(), sharp.end(), place,
+      [&cells](const SharpVertex& v, int wanted) { return cells[v.cell] < wanted; });
+    found.vertex = found.owner->block->keys.size() + (vertex - sharp.begin());
+    return vertex != sharp.end() && cells[vertex->cell] == place;
+  }
+
+  /// Whether an edge between two sharp vertices passes through the face between their cells, well off
+  /// its border: then the new triangles stay within the two cells, where nothing else is on that face.
+  bool MayJoin(
+    const Vector3d& lower, const Vector3d& upper, const Vector3d& faceLow, int axis) const
+  {
+    const double from = lower[axis] - faceLow[axis], to = upper[axis] - faceLow[axis];
+    const Vector3d through = lower + from / (from - to) * (upper - lower);
+    const double room = SharpClearance * this->Lattice.spacing;
+    bool isInside = from * to < 0;
+    for (int other : { (axis + 1) % 3, (axis + 2) % 3 })
+    {
+      const double place = through[other] - faceLow[other];
+      isInside = isInside && place > room && place < this->Lattice.spacing - room;
+    }
+    return isInside;
+  }
+
+  /// Writes the mesh layer by layer, and lets go of what no later one needs.
+  void Write(const ContourArrays& arrays, const Progress& progress, const ParallelFor& parallelFor)
   {
     std::atomic<bool> torn(false);
-    parallelFor(this->Places.size(),
-      [&](std::size_t begin, std::size_t end)
+    this->ForEachPlace(
+      progress, parallelFor,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        this->WritePoints(this->Places[i], arrays);
+        if (this->Places[i].isOwn && !this->WriteTriangles(this->Places[i], arrays))
         {
-          this->WritePoints(this->Places[i], arrays);
-          if (this->Places[i].isOwn && !this->WriteTriangles(this->Places[i], arrays))
-          {
-            torn = true;
-          }
+          torn = true;
+        }
+      },
+      [this](std::size_t layer)
+      {
+        if (layer > 0)
+        {
+          this->ReleaseLayer(layer - 1);
         }
       });
     if (torn)
@@ -446,20 +650,31 @@ private:
     }
   }
 
+  void ReleaseLayer(std::size_t layer)
+  {
+    for (std::size_t r = this->Layers[layer].region; r < this->Layers[layer + 1].region; ++r)
+    {
+      this->Regions[r].blocks = {};
+    }
+    for (std::size_t i = this->Layers[layer].place; i < this->Layers[layer + 1].place; ++i)
+    {
+      this->Places[i].sharp = {};
+      this->Places[i].vertex = {};
+    }
+    ReturnFreeMemory();
+  }
+
   void WritePoints(const BlockPlace& place, const ContourArrays& arrays) const
   {
     const std::size_t count = place.block->keys.size();
-    for (std::size_t v = 0; v < count; ++v)
+    for (std::size_t v = 0; v < place.NumberOfVertices(); ++v)
     {
       const std::int32_t at = VertexPlace(place, v);
       if (at >= 0)
       {
-        WritePoint(arrays, at, place.block->Position(this->Lattice, v));
+        WritePoint(arrays, at,
+          v < count ? place.block->Position(this->Lattice, v) : place.sharp[v - count].position);
       }
-    }
-    for (std::size_t i = 0; i < place.sharp.size(); ++i)
-    {
-      WritePoint(arrays, place.firstVertex + count + i, place.sharp[i].position);
     }
   }
 
@@ -488,128 +703,29 @@ private:
   /// False when a vertex is not there.
   bool WriteTriangles(const BlockPlace& place, const ContourArrays& arrays) const
   {
-    bool whole = true;
-    std::array<BlockPlace*, 8> owners = {};
-    const int size = ContourBlock::Size;
-    ForEachTriangle(place,
-      [&](std::size_t t, const std::array<Corner, 3>& corners, std::size_t, auto)
+    return this->ForEachTriangle(place,
+      [&](std::size_t t, const std::array<Vertex, 3>& corners, bool isSharp)
       {
-        int view[3];
-        SurfaceKind kind[3];
         const std::size_t triangle = place.firstTriangle + t;
-        const bool isSharp = corners[0].sharp >= 0;
         for (int i = 0; i < 3; ++i)
         {
-          if (corners[i].sharp >= 0)
-          {
-            arrays.triangles[3 * triangle + i] =
-              VertexPlace(place, place.block->keys.size() + corners[i].sharp);
-            continue;
-          }
-          const LatticeIndex& point = corners[i].point;
-          BlockPlace*& owner =
-            owners[point[0] / size | point[1] / size << 1 | point[2] / size << 2];
-          const std::size_t vertex = this->FindVertex(place, point, corners[i].axis, owner);
-          if (vertex == Missing)
-          {
-            whole = false;
-            return;
-          }
-          arrays.triangles[3 * triangle + i] = VertexPlace(*owner, vertex);
-          view[i] = owner->block->View(vertex);
-          kind[i] = owner->block->Kind(vertex);
+          arrays.triangles[3 * triangle + i] = VertexPlace(*corners[i].owner, corners[i].vertex);
         }
         if (arrays.view)
         {
-          // What most of the corners are; the first where all differ.
-          const int most = isSharp || (view[1] == view[2] && kind[1] == kind[2]) ? 1 : 0;
-          arrays.view[triangle] = view[most];
-          arrays.kind[triangle] = kind[most];
+          // What most of the corners are; the first where all differ. Sharp vertices are nothing.
+          const Vertex& most =
+            isSharp || AreAlike(corners[1], corners[2]) ? corners[1] : corners[0];
+          arrays.view[triangle] = most.owner->block->View(most.vertex);
+          arrays.kind[triangle] = most.owner->block->Kind(most.vertex);
         }
       });
-    return whole;
   }
 
-  /// A triangle of a fan about a sharp vertex, with the edge that it has on a face of its cell.
-  struct FanTriangle
+  static bool AreAlike(const Vertex& a, const Vertex& b)
   {
-    std::int32_t low, high; ///< ends of the edge, in order
-    std::int32_t sharp;
-    std::size_t triangle;
-    Vector3d position; ///< of the sharp vertex
-    Vector3d faceLow;  ///< the face's first corner
-    int faceAxis;
-  };
-
-  /// Joins sharp vertices of neighbouring cells by an edge, instead of the one that parts them.
-  void FlipToSharpEdges(const ContourArrays& arrays) const
-  {
-    std::vector<FanTriangle> fans = this->CollectFans(arrays);
-    std::sort(fans.begin(), fans.end(),
-      [](const FanTriangle& a, const FanTriangle& b)
-      { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
-    for (std::size_t i = 0; i + 1 < fans.size(); ++i)
-    {
-      const FanTriangle &a = fans[i], &b = fans[i + 1];
-      if (a.low == b.low && a.high == b.high && this->MayJoin(a, b))
-      {
-        // (s, u, v) and (t, v, u) become (s, u, t) and (t, v, s).
-        arrays.triangles[3 * a.triangle + 2] = b.sharp;
-        arrays.triangles[3 * b.triangle + 2] = a.sharp;
-      }
-    }
-  }
-
-  std::vector<FanTriangle> CollectFans(const ContourArrays& arrays) const
-  {
-    std::vector<FanTriangle> fans;
-    for (const BlockPlace& place : this->Places)
-    {
-      if (place.sharp.empty())
-      {
-        continue;
-      }
-      ForEachTriangle(place,
-        [&](std::size_t t, const std::array<Corner, 3>& corners, std::size_t c,
-          const std::pair<int, int>& edges)
-        {
-          if (corners[0].sharp < 0)
-          {
-            return;
-          }
-          const int face = CubeCases::CommonFace(edges.first, edges.second);
-          if (CubeCases::IsAmbiguous(place.block->cases[c], face))
-          {
-            return;
-          }
-          const std::size_t triangle = place.firstTriangle + t;
-          const std::int32_t* ids = arrays.triangles + 3 * triangle;
-          LatticeIndex cell = CellOf(place.block->cells[c]);
-          cell[face >> 1] += face & 1;
-          fans.push_back({ std::min(ids[1], ids[2]), std::max(ids[1], ids[2]), ids[0], triangle,
-            place.sharp[corners[0].sharp].position, this->CellCorner(*place.block, cell),
-            face >> 1 });
-        });
-    }
-    return fans;
-  }
-
-  /// Whether the new edge passes through the face between its cells, well off its border: then the
-  /// new triangles stay within the two cells, where nothing else is on that face.
-  bool MayJoin(const FanTriangle& a, const FanTriangle& b) const
-  {
-    const int axis = a.faceAxis;
-    const double from = a.position[axis] - a.faceLow[axis];
-    const double to = b.position[axis] - a.faceLow[axis];
-    const Vector3d through = a.position + from / (from - to) * (b.position - a.position);
-    const double room = SharpClearance * this->Lattice.spacing;
-    bool isInside = from * to < 0;
-    for (int other : { (axis + 1) % 3, (axis + 2) % 3 })
-    {
-      const double place = through[other] - a.faceLow[other];
-      isInside = isInside && place > room && place < this->Lattice.spacing - room;
-    }
-    return isInside;
+    return a.owner->block->View(a.vertex) == b.owner->block->View(b.vertex) &&
+      a.owner->block->Kind(a.vertex) == b.owner->block->Kind(b.vertex);
   }
 
   /// Sharp vertices keep so far from the sides of their cells, and new edges from those of the faces,
@@ -620,10 +736,18 @@ private:
   const ContourLattice Lattice;
   const ContourOptions Options;
   const CrossingOptions Crossing;
+  /// Regions of one layer: where they, and their blocks, begin.
+  struct Layer
+  {
+    std::size_t region, place;
+  };
+
   std::vector<Region> Regions;
+  std::unordered_set<std::uint64_t> OwnRegions; ///< of this piece, when it is not the whole
+  std::vector<Layer> Layers;                    ///< and one more, the end
   std::vector<BlockPlace> Places;
   std::unordered_map<std::uint64_t, std::size_t> Index;
-  std::size_t Vertices = 0, Triangles = 0;
+  std::size_t Vertices = 0, OwnVertices = 0, Triangles = 0;
 };
 
 }
@@ -636,7 +760,7 @@ void BisectionContour(const ContourField& field, const AlignedBox3d& bounds,
   progress(0.0);
   if (bounds.isEmpty())
   {
-    allocate(0, 0);
+    allocate({});
     return;
   }
   if (!bounds.min().allFinite() || !bounds.max().allFinite() || !(bounds.sizes().maxCoeff() > 0))
@@ -644,21 +768,23 @@ void BisectionContour(const ContourField& field, const AlignedBox3d& bounds,
     throw Error("The bounds of the contour are not a finite box with an extent.");
   }
   Contour(field, bounds, options).Run(allocate, progress, parallelFor, field.IsThreadSafe());
+  ReturnFreeMemory();
 }
 
 ContourMesh BisectionContour(const ContourField& field, const AlignedBox3d& bounds,
   const ContourOptions& options, const Progress& progress, const ParallelFor& parallelFor)
 {
   ContourMesh mesh;
-  const auto allocate = [&mesh](std::size_t points, std::size_t triangles)
+  const auto allocate = [&mesh](const ContourSize& size)
   {
-    mesh.points.resize(points);
-    mesh.triangles.resize(triangles);
-    mesh.view.resize(triangles);
-    mesh.kind.resize(triangles);
+    mesh.points.resize(size.points);
+    mesh.ownPoints = size.ownPoints;
+    mesh.triangles.resize(size.triangles);
+    mesh.view.resize(size.triangles);
+    mesh.kind.resize(size.triangles);
     ContourArrays arrays;
-    arrays.doublePoints = points ? mesh.points[0].data() : nullptr;
-    arrays.triangles = triangles ? mesh.triangles[0].data() : nullptr;
+    arrays.doublePoints = size.points ? mesh.points[0].data() : nullptr;
+    arrays.triangles = size.triangles ? mesh.triangles[0].data() : nullptr;
     arrays.view = mesh.view.data();
     arrays.kind = mesh.kind.data();
     return arrays;

@@ -22,7 +22,8 @@ struct ContourOptions
   bool exact = true;       ///< take crossings from the field where it knows them, see
                            ///< ContourField::Crossing; the tolerance is for all others
   bool sharp = false;      ///< rebuild sharp edges and corners from the normals at the crossings
-  double sharpAngle = 60; ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
+  double sharpAngle =
+    60;           ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
   int piece = 0;  ///< which of the pieces to make; in [0, pieces)
   int pieces = 1; ///< that together are the surface; >= 1
 
@@ -41,8 +42,16 @@ struct ContourArrays
   SurfaceKind* kind = nullptr;       ///< per triangle
 };
 
+/// How large a contour is.
+struct ContourSize
+{
+  std::size_t points = 0;
+  std::size_t ownPoints = 0; ///< of these: the points after them belong to other pieces
+  std::size_t triangles = 0;
+};
+
 /// Provides the arrays when their sizes are known, so that no copy of a large mesh is made.
-using AllocateContour = std::function<ContourArrays(std::size_t points, std::size_t triangles)>;
+using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 
 /// The boundary of the matter within the bounds, by marching cubes whose vertices are found by
 /// bisection (section 2.2, figure 6). What lies outside of the bounds counts as free, so that the
@@ -57,12 +66,14 @@ using AllocateContour = std::function<ContourArrays(std::size_t points, std::siz
 /// that differ by more than the sharp angle gets a vertex where the crossings' planes meet, and edges
 /// are flipped to join such vertices of neighbouring cells. Only where that keeps the surface from
 /// meeting itself: in cells that one sheet passes, with the vertex inside of the cell, and over a face
-/// that one line crosses, with the new edge through it. Not in pieces.
+/// that one line crosses, with the new edge through it.
 ///
 /// Pieces share out the lattice. A piece is open where it meets others, and has exactly their
-/// vertices there.
+/// vertices there: all pieces' own points, one piece after the other, are the points of the whole, and
+/// so are their triangles, in the same order.
 ///
-/// Throws Aborted when the progress wants to stop; nothing is allocated then.
+/// What is held beside the mesh is small, and let go while the mesh is written. Throws Aborted when
+/// the progress wants to stop; what was written then is of no use.
 void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const AllocateContour& allocate, const Progress& progress = {},
   const ParallelFor& parallelFor = SerialFor);
@@ -74,6 +85,7 @@ bool SinglePrecisionSuffices(const Eigen::AlignedBox3d& bounds, const ContourOpt
 struct ContourMesh
 {
   std::vector<Eigen::Vector3d> points;
+  std::size_t ownPoints = 0;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> view;
   std::vector<SurfaceKind> kind;

@@ -199,7 +199,6 @@ TEST(BisectionContour, PiecesTogetherAreTheWhole)
 {
   const FreespaceUnion phi(RandomMaps(6, 3), {});
   ContourOptions options = Cells(90);
-  const ContourMesh whole = BisectionContour(phi, phi.Hull().Bounds(), options);
   const auto corners = [](const ContourMesh& mesh, std::size_t t)
   {
     std::array<std::array<double, 3>, 3> triangle;
@@ -210,11 +209,16 @@ TEST(BisectionContour, PiecesTogetherAreTheWhole)
     }
     return triangle;
   };
-  for (int pieces : { 2, 5, 1000 })
+  for (int trial = 0; trial < 6; ++trial)
   {
-    options.pieces = pieces;
-    std::size_t next = 0;
-    for (options.piece = 0; options.piece < pieces; ++options.piece)
+    options.sharp = trial % 2 == 1;
+    options.pieces = 1;
+    options.piece = 0;
+    const ContourMesh whole = BisectionContour(phi, phi.Hull().Bounds(), options);
+    EXPECT_EQ(whole.ownPoints, whole.points.size());
+    options.pieces = std::array<int, 3>{ 2, 5, 1000 }[trial / 2];
+    std::size_t next = 0, nextPoint = 0;
+    for (options.piece = 0; options.piece < options.pieces; ++options.piece)
     {
       const ContourMesh piece = BisectionContour(phi, phi.Hull().Bounds(), options);
       std::vector<char> used(piece.points.size(), 0);
@@ -222,14 +226,21 @@ TEST(BisectionContour, PiecesTogetherAreTheWhole)
       {
         ASSERT_LT(next, whole.triangles.size());
         ASSERT_EQ(corners(piece, t), corners(whole, next));
+        ASSERT_EQ(piece.view[t], whole.view[next]);
         for (int corner : piece.triangles[t])
         {
           used[corner] = 1;
         }
       }
-      EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+      EXPECT_EQ(std::count(used.begin() + piece.ownPoints, used.end(), 0), 0);
+      for (std::size_t v = 0; v < piece.ownPoints; ++v, ++nextPoint)
+      {
+        ASSERT_LT(nextPoint, whole.points.size());
+        ASSERT_EQ(piece.points[v], whole.points[nextPoint]);
+      }
     }
     EXPECT_EQ(next, whole.triangles.size());
+    EXPECT_EQ(nextPoint, whole.points.size());
   }
 }
 
