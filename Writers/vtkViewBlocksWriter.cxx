@@ -35,6 +35,9 @@ void vtkViewBlocksWriter::WriteData()
     vtkNew<vtkXMLMultiBlockDataWriter> writer;
     writer->SetInputDataObject(this->GetInput());
     writer->SetFileName(target.Path().c_str());
+    // As fast as the disk: zlib and base64 take longer than all that made the maps.
+    writer->SetCompressorTypeToLZ4();
+    writer->EncodeAppendedDataOff();
     if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
     {
       throw freespace::Error("Cannot write " + this->FileName + ": the disk is full or failed.");

@@ -77,6 +77,61 @@ bool Scene::Spans(std::size_t triangle, const ContinueBackgroundOptions& options
     std::cos(options.grazingAngle * M_PI / 180) * normal.norm() * sight.norm();
 }
 
+// The parts of the image that bridges touch. Most points are far from any bridge, and this tells so at
+// the cost of a projection.
+class BridgeMask
+{
+public:
+  explicit BridgeMask(const Scene& scene);
+
+  bool MayHold(const Vector2d& pixel) const
+  {
+    return this->Box.contains(pixel) && this->Touched[Index(this->Block(pixel))];
+  }
+
+private:
+  static constexpr int Blocks = 128; // along each side
+
+  Eigen::Array2i Block(const Vector2d& pixel) const
+  {
+    return ((pixel - this->Box.min()).array() * this->BlocksPerPixel).cast<int>().min(Blocks - 1);
+  }
+  static int Index(const Eigen::Array2i& block) { return block.y() * Blocks + block.x(); }
+
+  Eigen::AlignedBox2d Box;
+  Eigen::Array2d BlocksPerPixel;
+  std::vector<char> Touched;
+};
+
+BridgeMask::BridgeMask(const Scene& scene)
+  : Touched(Blocks * Blocks, 0)
+{
+  const DisparityMap& map = scene.map;
+  for (const auto& triangle : map.triangles)
+  {
+    for (int corner : triangle)
+    {
+      this->Box.extend(map.imagePoints[corner]);
+    }
+  }
+  this->BlocksPerPixel = Blocks / this->Box.sizes().array().max(1e-9);
+  for (std::size_t t = 0; t < map.triangles.size(); ++t)
+  {
+    if (scene.isBridge[t])
+    {
+      const auto [a, b, c] = map.triangles[t];
+      Eigen::AlignedBox2d box(map.imagePoints[a]);
+      box.extend(map.imagePoints[b]).extend(map.imagePoints[c]);
+      const Eigen::Array2i first = this->Block(box.min()), last = this->Block(box.max());
+      for (int y = first.y(); y <= last.y(); ++y)
+      {
+        std::fill(
+          &this->Touched[Index({ first.x(), y })], &this->Touched[Index({ last.x(), y })] + 1, 1);
+      }
+    }
+  }
+}
+
 // Works on one view, with all others around it.
 class BackgroundContinuer
 {
@@ -217,35 +272,21 @@ std::optional<double> BackgroundContinuer::PlaneAround(int far, const Vector2d& 
 std::optional<double> BackgroundContinuer::Crossing(
   const Scene& other, const Vector2d& pixel, double from, double to) const
 {
-  constexpr int steps = 24, bisections = 12;
+  constexpr double beyond = 1e-5; // of the way between the two
   const Camera& camera = this->Own.map.camera;
-  const auto at = [&](double disparity)
-  { return other.freespace.At(camera.Unproject(pixel, 1 / disparity)); };
-  bool wasFree = false;
-  for (int i = 0; i <= steps; ++i)
+  const Vector3d first = camera.Unproject(pixel, 1 / from), last = camera.Unproject(pixel, 1 / to);
+  ViewFreespace::Intervals intervals;
+  other.freespace.FreeIntervals(first, last, intervals);
+  for (const auto& [begin, end] : intervals)
   {
-    const ViewFreespace::Sample sample = at(from + (to - from) * i / steps);
-    const bool isFree = sample.triangle >= 0 && sample.value > 0;
-    if (wasFree && !isFree)
+    const Vector3d place = first + std::min(end + beyond, 1.0) * (last - first);
+    const ViewFreespace::Sample behind = other.freespace.At(place);
+    const bool isSurface = end < 1 && behind.triangle >= 0 && !other.isBridge[behind.triangle] &&
+      std::abs(behind.value) < SeeThrough * this->Options.noise * other.map.camera.Depth(place);
+    if (isSurface)
     {
-      double free = from + (to - from) * (i - 1) / steps;
-      double matter = from + (to - from) * i / steps;
-      for (int b = 0; b < bisections; ++b)
-      {
-        const double middle = (free + matter) / 2;
-        const ViewFreespace::Sample half = at(middle);
-        (half.triangle >= 0 && half.value > 0 ? free : matter) = middle;
-      }
-      const ViewFreespace::Sample behind = at(matter);
-      const double depth = other.map.camera.Depth(camera.Unproject(pixel, 1 / matter));
-      const bool isSurface = behind.triangle >= 0 && !other.isBridge[behind.triangle] &&
-        std::abs(behind.value) < SeeThrough * this->Options.noise * depth;
-      if (isSurface)
-      {
-        return free;
-      }
+      return 1 / camera.Depth(first + end * (last - first));
     }
-    wasFree = isFree;
   }
   return {};
 }
@@ -253,15 +294,17 @@ std::optional<double> BackgroundContinuer::Crossing(
 // The first of the other views' surfaces behind the jump's middle; 0 where there is none.
 double BackgroundContinuer::SurfaceBehind(const Vector2d& pixel, double from, double to) const
 {
-  double nearest = 0;
+  std::optional<double> nearest;
   for (std::size_t v = 0; v < this->Scenes.size(); ++v)
   {
     if (v != this->Index)
     {
-      nearest = std::max(nearest, this->Crossing(*this->Scenes[v], pixel, from, to).value_or(0));
+      // Only what is nearer than all before can matter.
+      const auto crossing = this->Crossing(*this->Scenes[v], pixel, from, nearest.value_or(to));
+      nearest = crossing ? crossing : nearest;
     }
   }
-  return nearest;
+  return nearest.value_or(0);
 }
 
 // The background's disparity at a near corner of a bridge; none where it is not known.
@@ -377,10 +420,15 @@ std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
   const std::vector<View>& views) const
 {
   std::vector<std::vector<Vector3d>> points(this->Own.map.triangles.size());
+  const BridgeMask mask(this->Own);
   for (const View& view : views)
   {
     for (const Vector3d& point : view.points)
     {
+      if (!mask.MayHold(this->Own.map.camera.Project(point)))
+      {
+        continue;
+      }
       const int triangle = this->Own.freespace.At(point).triangle;
       if (triangle >= 0 && this->Own.isBridge[triangle])
       {

@@ -7,15 +7,13 @@
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <numeric>
 #include <queue>
@@ -88,22 +86,38 @@ bool Sight(const Camera& camera, const Eigen::Vector3d& point, int sourceView, S
   return true;
 }
 
-// Indices along a space-filling curve, so that each point is found near the one before.
+// The lower 16 bits, moved apart to make room for those of another number between them.
+std::uint32_t SpreadBits(std::uint32_t x)
+{
+  x = (x | x << 8) & 0x00ff00ffu;
+  x = (x | x << 4) & 0x0f0f0f0fu;
+  x = (x | x << 2) & 0x33333333u;
+  return (x | x << 1) & 0x55555555u;
+}
+
+// Indices along a space-filling curve (Morton's), so that each point is found near the one before.
 template <typename Sightings>
 std::vector<std::size_t> SpatialOrder(const Sightings& sightings)
 {
-  std::vector<Pixel> pixels;
-  pixels.reserve(sightings.size());
+  constexpr double steps = 65535;
+  Eigen::AlignedBox2d box;
   for (const Sighting& sighting : sightings)
   {
-    pixels.push_back(sighting.pixel);
+    box.extend(Eigen::Vector2d(sighting.pixel.x(), sighting.pixel.y()));
   }
-  std::vector<std::size_t> order(pixels.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  using Map = CGAL::Pointer_property_map<Pixel>::const_type;
-  CGAL::spatial_sort(order.begin(), order.end(),
-    CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(
-      CGAL::make_property_map(static_cast<const std::vector<Pixel>&>(pixels))));
+  const double scale = steps / std::max(box.sizes().maxCoeff(), 1e-9);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
+  keys.reserve(sightings.size());
+  for (const Sighting& sighting : sightings)
+  {
+    const auto x = static_cast<std::uint32_t>((sighting.pixel.x() - box.min().x()) * scale);
+    const auto y = static_cast<std::uint32_t>((sighting.pixel.y() - box.min().y()) * scale);
+    keys.emplace_back(SpreadBits(x) | SpreadBits(y) << 1, static_cast<std::uint32_t>(keys.size()));
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> order(keys.size());
+  std::transform(
+    keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
   return order;
 }
 

@@ -117,10 +117,9 @@ std::vector<Plane> FacetPlanes(const Points& points, Points& corners)
 
 // Points well inside the hull of a few extreme points cannot be corners of the whole hull. Leaving
 // them out first makes the hull of hundreds of thousands of features a matter of a few thousand.
-Points DropInner(const Points& points, double tolerance)
+Points DropInner(const Points& points, double tolerance, int rings)
 {
   Points extremes;
-  const int rings = 16;
   for (int i = 0; i < rings * rings; ++i)
   {
     // Fibonacci directions over the sphere.
@@ -186,7 +185,9 @@ FeatureHull::FeatureHull(const Points& points, double margin)
     return;
   }
   const double tolerance = 1e-12 * (box.diagonal().norm() + box.center().norm());
-  const Points outer = finite.size() > 1000 ? DropInner(finite, tolerance) : finite;
+  // Few directions first, so that the many are asked of few points.
+  const Points outer =
+    finite.size() > 1000 ? DropInner(DropInner(finite, tolerance, 5), tolerance, 16) : finite;
   Points corners;
   std::vector<Plane> planes;
   Plane flat;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace freespace
 {
@@ -23,52 +24,83 @@ constexpr double LeastDisagreement = 10;
 // In units of what is typical of the view.
 constexpr double Untypical = 5;
 
-// Per point of a map the points that share a triangle with it, each once.
-std::vector<std::vector<int>> NeighborsInMap(const DisparityMap& map)
+// Finds the points of a map that are nearest to one in the image, within two triangles.
+class Neighborhood
 {
-  std::vector<std::vector<int>> neighbors(map.points.size());
+public:
+  explicit Neighborhood(const DisparityMap& map);
+
+  // The next of so many, nearest first; valid until the next call.
+  const std::vector<int>& Nearest(int point, std::size_t count);
+
+private:
+  void Visit(int point, int center);
+
+  const DisparityMap& Map;
+  std::vector<int> Begin, Corners; // per point, the corners of its triangles, some of them twice
+  std::vector<int> Stamp;          // the last search that came by
+  std::vector<std::pair<double, int>> Found;
+  std::vector<int> Result;
+};
+
+Neighborhood::Neighborhood(const DisparityMap& map)
+  : Map(map)
+  , Begin(map.points.size() + 2, 0)
+  , Corners(6 * map.triangles.size())
+  , Stamp(map.points.size(), -1)
+{
+  for (const auto& triangle : map.triangles)
+  {
+    for (int corner : triangle)
+    {
+      this->Begin[corner + 2] += 2;
+    }
+  }
+  std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
   for (const auto& triangle : map.triangles)
   {
     for (int i = 0; i < 3; ++i)
     {
-      neighbors[triangle[i]].push_back(triangle[(i + 1) % 3]);
-      neighbors[triangle[i]].push_back(triangle[(i + 2) % 3]);
+      int& next = this->Begin[triangle[i] + 1];
+      this->Corners[next++] = triangle[(i + 1) % 3];
+      this->Corners[next++] = triangle[(i + 2) % 3];
     }
   }
-  for (std::vector<int>& ring : neighbors)
-  {
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  }
-  return neighbors;
 }
 
-// The points nearest to each in the image, within two triangles.
-std::vector<std::vector<int>> NearestPoints(const DisparityMap& map, std::size_t count)
+void Neighborhood::Visit(int point, int center)
 {
-  const std::vector<std::vector<int>> neighbors = NeighborsInMap(map);
-  std::vector<std::vector<int>> nearest(map.points.size());
-  for (std::size_t i = 0; i < map.points.size(); ++i)
+  if (this->Stamp[point] != center)
   {
-    std::vector<int>& around = nearest[i];
-    around = neighbors[i];
-    for (int neighbor : neighbors[i])
-    {
-      around.insert(around.end(), neighbors[neighbor].begin(), neighbors[neighbor].end());
-    }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    around.erase(std::remove(around.begin(), around.end(), static_cast<int>(i)), around.end());
-    const auto last = around.begin() + std::min(around.size(), count);
-    std::partial_sort(around.begin(), last, around.end(),
-      [&](int a, int b)
-      {
-        return (map.imagePoints[a] - map.imagePoints[i]).squaredNorm() <
-          (map.imagePoints[b] - map.imagePoints[i]).squaredNorm();
-      });
-    around.erase(last, around.end());
+    this->Stamp[point] = center;
+    this->Found.emplace_back(
+      (this->Map.imagePoints[point] - this->Map.imagePoints[center]).squaredNorm(), point);
   }
-  return nearest;
+}
+
+const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
+{
+  this->Found.clear();
+  this->Stamp[point] = point;
+  for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
+  {
+    this->Visit(this->Corners[i], point);
+  }
+  const std::size_t ring = this->Found.size();
+  for (std::size_t i = 0; i < ring; ++i)
+  {
+    const int neighbor = this->Found[i].second;
+    for (int j = this->Begin[neighbor]; j < this->Begin[neighbor + 1]; ++j)
+    {
+      this->Visit(this->Corners[j], point);
+    }
+  }
+  const auto last = this->Found.begin() + std::min(this->Found.size(), count);
+  std::partial_sort(this->Found.begin(), last, this->Found.end());
+  this->Result.clear();
+  std::transform(this->Found.begin(), last, std::back_inserter(this->Result),
+    [](const auto& found) { return found.second; });
+  return this->Result;
 }
 
 // For each point the relative difference in disparity to the last of the neighbours that it needs for
@@ -77,7 +109,7 @@ std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersO
 {
   const double focalLength = std::sqrt(std::abs(map.camera.K(0, 0) * map.camera.K(1, 1)));
   const double slope = std::tan(options.steepestAngle * M_PI / 180) / focalLength;
-  const auto nearest = NearestPoints(map, options.nearest);
+  Neighborhood neighborhood(map);
   std::vector<double> disparity;
   for (const Vector3d& point : map.points)
   {
@@ -87,7 +119,7 @@ std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersO
   for (std::size_t i = 0; i < lack.size(); ++i)
   {
     differences.clear();
-    for (int other : nearest[i])
+    for (int other : neighborhood.Nearest(static_cast<int>(i), options.nearest))
     {
       const double difference =
         std::abs(disparity[i] - disparity[other]) / std::max(disparity[i], disparity[other]);
@@ -182,7 +214,10 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   forEachView(
     [&](std::size_t v)
     {
-      freespaces[v] = std::make_unique<ViewFreespace>(maps[v]);
+      if (options.seeThroughViews > 0)
+      {
+        freespaces[v] = std::make_unique<ViewFreespace>(maps[v]);
+      }
       supported[v] = SupportedPoints(maps[v], options);
     });
   forEachView(

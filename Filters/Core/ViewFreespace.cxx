@@ -23,14 +23,19 @@ constexpr double EdgeOnCosine = 0.0872; // of 85 degrees
 // Relative room for the rounding between a cell's bounds and a triangle's disparity.
 constexpr double Slack = 1e-6;
 
+// Bounds in single precision, without the care of nextafter, which is called for each cell.
+constexpr float Ulp = std::numeric_limits<float>::epsilon();
+
 float RoundDown(double x)
 {
-  return std::nextafter(static_cast<float>(x), -Infinity);
+  const float near = static_cast<float>(x);
+  return near - std::abs(near) * Ulp;
 }
 
 float RoundUp(double x)
 {
-  return std::nextafter(static_cast<float>(x), Infinity);
+  const float near = static_cast<float>(x);
+  return near + std::abs(near) * Ulp;
 }
 
 // Sorts intervals and joins those that touch, but for the last bits.
@@ -179,42 +184,57 @@ void ViewFreespace::LinkNeighbors()
   }
 }
 
-// Calls visit(cell index) for each cell that a small convex polygon touches: band by band over the
-// rows of the raster, between the outermost points that the polygon's edges have in the band.
+// Calls visit(cell, column, row, whether the polygon holds the cell's centre) for each cell that a
+// small convex polygon touches: band by band over the rows of the raster, between the outermost points
+// that the polygon's edges have in the band.
 template <typename Visit>
 void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& visit) const
 {
   // A hair of room, so that a point is never rounded into a cell that its triangle was not told to.
   const double room = 1e-9 * (this->Width + this->Height);
+  struct Side
+  {
+    double low, high; // of y
+    double xLow, xHigh, slope;
+  };
+  std::array<Side, 3> sides;
   double bottom = HUGE_VAL, top = -HUGE_VAL;
   for (int i = 0; i < corners; ++i)
   {
-    bottom = std::min(bottom, polygon[i].y());
-    top = std::max(top, polygon[i].y());
+    Vector2d a = polygon[i], b = polygon[i + 1 < corners ? i + 1 : 0];
+    if (a.y() > b.y())
+    {
+      std::swap(a, b);
+    }
+    const double slope = a.y() == b.y() ? 0.0 : (b.x() - a.x()) / (b.y() - a.y());
+    sides[i] = { a.y(), b.y(), a.x(), b.x(), slope };
+    bottom = std::min(bottom, a.y());
+    top = std::max(top, b.y());
   }
   const int first = std::clamp(static_cast<int>(bottom - room), 0, this->Height - 1);
   const int last = std::clamp(static_cast<int>(top + room), 0, this->Height - 1);
   for (int row = first; row <= last; ++row)
   {
-    const double low = row - room, high = row + 1 + room;
-    double left = HUGE_VAL, right = -HUGE_VAL;
+    const double low = row - room, high = row + 1 + room, middle = row + 0.5;
+    double left = HUGE_VAL, right = -HUGE_VAL, leftMiddle = HUGE_VAL, rightMiddle = -HUGE_VAL;
     for (int i = 0; i < corners; ++i)
     {
-      const Vector2d &a = polygon[i], &b = polygon[i + 1 < corners ? i + 1 : 0];
-      const double from = std::max(low, std::min(a.y(), b.y()));
-      const double to = std::min(high, std::max(a.y(), b.y()));
+      const Side& side = sides[i];
+      const double from = std::max(low, side.low), to = std::min(high, side.high);
       if (from > to)
       {
         continue;
       }
-      const double slope = a.y() == b.y() ? 0.0 : (b.x() - a.x()) / (b.y() - a.y());
-      const double xFrom = a.x() + slope * (from - a.y()), xTo = a.x() + slope * (to - a.y());
+      const double xFrom = side.xLow + side.slope * (from - side.low);
+      const double xTo =
+        side.low == side.high ? side.xHigh : side.xLow + side.slope * (to - side.low);
       left = std::min({ left, xFrom, xTo });
       right = std::max({ right, xFrom, xTo });
-      if (a.y() == b.y())
+      if (side.low <= middle && middle <= side.high)
       {
-        left = std::min(left, b.x());
-        right = std::max(right, b.x());
+        const double x = side.xLow + side.slope * (middle - side.low);
+        leftMiddle = std::min(leftMiddle, x);
+        rightMiddle = std::max(rightMiddle, x);
       }
     }
     if (left <= right)
@@ -223,7 +243,8 @@ void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& vis
       const int to = std::clamp(static_cast<int>(right + room), 0, this->Width - 1);
       for (int column = from; column <= to; ++column)
       {
-        visit(static_cast<std::size_t>(row) * this->Width + column, column, row);
+        visit(static_cast<std::size_t>(row) * this->Width + column, column, row,
+          leftMiddle <= column + 0.5 && column + 0.5 <= rightMiddle);
       }
     }
   }
@@ -249,7 +270,7 @@ void ViewFreespace::MakeRaster()
     }
     const double reach = 0.5 * (std::abs(triangle.slopeX) + std::abs(triangle.slopeY));
     this->VisitCells(polygon, 3,
-      [&](std::size_t index, int column, int row)
+      [&](std::size_t index, int column, int row, bool holdsCenter)
       {
         Cell& cell = this->Cells[index];
         const Corner& corner = this->Corners[triangle.corner[0]];
@@ -260,10 +281,6 @@ void ViewFreespace::MakeRaster()
         const double high = std::clamp(center + reach, least, most);
         cell.low = std::min(cell.low, RoundDown(low * (1 - Slack)));
         cell.high = std::max(cell.high, RoundUp(high * (1 + Slack)));
-        const bool holdsCenter =
-          this->Turn(triangle.corner[0], triangle.corner[1], column + 0.5, row + 0.5) >= 0 &&
-          this->Turn(triangle.corner[1], triangle.corner[2], column + 0.5, row + 0.5) >= 0 &&
-          this->Turn(triangle.corner[2], triangle.corner[0], column + 0.5, row + 0.5) >= 0;
         if (cell.triangle < 0 || holdsCenter)
         {
           cell.triangle = static_cast<int>(t);
@@ -281,7 +298,7 @@ void ViewFreespace::MakeRaster()
         const Vector2d edge[2] = { this->Corners[triangle.corner[i]].position,
           this->Corners[triangle.corner[(i + 1) % 3]].position };
         this->VisitCells(
-          edge, 2, [&](std::size_t index, int, int) { this->Cells[index].high = Infinity; });
+          edge, 2, [&](std::size_t index, int, int, bool) { this->Cells[index].high = Infinity; });
       }
     }
   }
