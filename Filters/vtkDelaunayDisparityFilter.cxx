@@ -30,6 +30,7 @@ int vtkDelaunayDisparityFilter::RequestData(
   freespace::RejectOutliersOptions outliers;
   outliers.neighbors = this->SupportingNeighbors;
   outliers.seeThroughViews = this->SeeThroughViews;
+  outliers.violatingFeatures = this->ViolatingFeatures;
   freespace::UntrustedTrianglesOptions untrusted;
   untrusted.longestEdge = this->LongestEdge;
   untrusted.greatestDepth = this->GreatestDepthRatio;
@@ -38,7 +39,8 @@ int vtkDelaunayDisparityFilter::RequestData(
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     untrusted.Check();
     std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
-    if (this->SupportingNeighbors != 0 || this->SeeThroughViews != 0)
+    if (this->SupportingNeighbors != 0 || this->SeeThroughViews != 0 ||
+      this->ViolatingFeatures != 0)
     {
       freespace::DelaunayDisparityOptions own = options;
       own.minimumDisparity = false;
@@ -78,6 +80,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefutingViews: " << this->RefutingViews << "\n";
   os << indent << "SupportingNeighbors: " << this->SupportingNeighbors << "\n";
   os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
+  os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
   os << indent << "LongestEdge: " << this->LongestEdge << "\n";
   os << indent << "GreatestDepthRatio: " << this->GreatestDepthRatio << "\n";
 }

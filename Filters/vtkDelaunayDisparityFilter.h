@@ -131,6 +131,16 @@ public:
 
   ///@{
   /**
+   * A triangle that so many supported features of other views violate (they lie in its free space), and
+   * more than lie on it, is wrong. A feature that is the deepest corner of wrong triangles most of the
+   * way round is dropped before the constraint is enforced. 0, the default and the paper, drops none.
+   */
+  vtkSetMacro(ViolatingFeatures, int);
+  vtkGetMacro(ViolatingFeatures, int);
+  ///@}
+
+  ///@{
+  /**
    * Triangles with a longer edge in the image, pixels, carve nothing. 0, the default and the paper, is
    * no limit.
    */
@@ -161,6 +171,7 @@ protected:
   int RefutingViews = 2;
   int SupportingNeighbors = 2;
   int SeeThroughViews = 0;
+  int ViolatingFeatures = 0;
   double LongestEdge = 0.0;
   double GreatestDepthRatio = 0.0;
 

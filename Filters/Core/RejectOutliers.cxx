@@ -2,7 +2,9 @@
 #include "RejectOutliers.h"
 
 #include "Error.h"
+#include "FeatureCloud.h"
 #include "ViewFreespace.h"
+#include "ViolatedTriangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -183,9 +185,11 @@ void RejectOutliersOptions::Check() const
   {
     throw Error("The relative noise of the features' depth must be positive.");
   }
-  if (this->neighbors < 0 || this->nearest < 1 || this->seeThroughViews < 0)
+  if (this->neighbors < 0 || this->nearest < 1 || this->seeThroughViews < 0 ||
+    this->violatingFeatures < 0)
   {
-    throw Error("The numbers of neighbours and of views that test for outliers are out of range.");
+    throw Error("The numbers of neighbours, views and features that test for outliers are out of "
+                "range.");
   }
   if (!(this->steepestAngle >= 0 && this->steepestAngle < 90))
   {
@@ -193,13 +197,51 @@ void RejectOutliersOptions::Check() const
   }
 }
 
+namespace
+{
+
+using Flags = std::vector<std::vector<char>>; // per view, per point of its map
+
+// The points of the maps that passed so far, as the features of views.
+std::vector<View> PassedViews(const std::vector<DisparityMap>& maps, const Flags& passed)
+{
+  std::vector<View> views(maps.size());
+  for (std::size_t v = 0; v < maps.size(); ++v)
+  {
+    for (std::size_t p = 0; p < maps[v].points.size(); ++p)
+    {
+      if (passed[v][p])
+      {
+        views[v].points.push_back(maps[v].points[p]);
+      }
+    }
+  }
+  return views;
+}
+
+// The map has its view's features in their order, but not all of them.
+std::vector<char> OfFeatures(
+  const View& view, const DisparityMap& map, const std::vector<char>& passed)
+{
+  std::vector<char> accepted(view.points.size(), 0);
+  std::size_t p = 0;
+  for (std::size_t i = 0; i < view.points.size() && p < map.points.size(); ++i)
+  {
+    if (view.points[i] == map.points[p])
+    {
+      accepted[i] = passed[p++];
+    }
+  }
+  return accepted;
+}
+
+}
+
 std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
   const ParallelFor& parallelFor)
 {
   options.Check();
-  std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
-  std::vector<std::vector<char>> supported(maps.size()), accepted(maps.size());
   const auto forEachView = [&](const auto& body)
   {
     parallelFor(maps.size(),
@@ -211,30 +253,34 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
         }
       });
   };
+  const bool asksOthers = options.seeThroughViews > 0 || options.violatingFeatures > 0;
+  std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
+  Flags supported(maps.size()), accepted(maps.size());
   forEachView(
     [&](std::size_t v)
     {
-      if (options.seeThroughViews > 0)
-      {
-        freespaces[v] = std::make_unique<ViewFreespace>(maps[v]);
-      }
+      freespaces[v] = asksOthers ? std::make_unique<ViewFreespace>(maps[v]) : nullptr;
       supported[v] = SupportedPoints(maps[v], options);
     });
+  const FeatureCloud cloud(
+    options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
   forEachView(
     [&](std::size_t v)
     {
-      // The map has its view's features in their order, but not all of them.
-      accepted[v].assign(views[v].points.size(), 0);
-      std::size_t p = 0;
-      for (std::size_t i = 0; i < views[v].points.size() && p < maps[v].points.size(); ++i)
+      std::vector<char> passed = supported[v], behind(maps[v].points.size(), 0);
+      if (options.violatingFeatures > 0)
       {
-        if (views[v].points[i] == maps[v].points[p])
-        {
-          accepted[v][i] = supported[v][p++] &&
-            (options.seeThroughViews == 0 ||
-              !IsSeenThrough(views[v].points[i], v, freespaces, maps, options));
-        }
+        behind = PointsBehindViolations(maps[v],
+          ViolatedTriangles(maps[v], *freespaces[v], cloud, static_cast<int>(v),
+            options.violatingFeatures, Agreement * options.noise));
       }
+      for (std::size_t p = 0; p < passed.size(); ++p)
+      {
+        passed[p] = passed[p] && !behind[p] &&
+          (options.seeThroughViews == 0 ||
+            !IsSeenThrough(maps[v].points[p], v, freespaces, maps, options));
+      }
+      accepted[v] = OfFeatures(views[v], maps[v], passed);
     });
   return accepted;
 }

@@ -29,6 +29,11 @@ struct RejectOutliersOptions
   /// features that the minimum disparity constraint needs.
   int seeThroughViews = 0;
 
+  /// A triangle that so many supported features of other views violate, and more than lie on it, is
+  /// wrong; a feature that is the deepest corner of wrong ones most of the way round is an outlier.
+  /// Finds what was thrown behind the surface, before the constraint buries it. 0 asks none.
+  int violatingFeatures = 0;
+
   /// Throws Error when a field is out of its range.
   void Check() const;
 };
@@ -38,7 +43,8 @@ struct RejectOutliersOptions
 ///
 /// The paper (section 2.2) asks for "a requisite amount of support in a local neighborhood of the
 /// image". Here the neighbourhood is that of the triangulation, two triangles wide, which adapts to
-/// the density of the features. What passes is then held against the other views' free space.
+/// the density of the features. What passes is then held against the other views' free space, and
+/// against their features.
 /// Features that are in no triangle count as outliers.
 std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,

@@ -111,6 +111,48 @@ TEST(RejectOutliers, OtherViewsSeeThroughAClump)
   EXPECT_GT(CountAccepted(accepted[1]), 1900u);
 }
 
+// A single outlier behind the sheet: the other views' features on the sheet lie in its free space.
+TEST(RejectOutliers, FeaturesOfOtherViewsRefuteWhatIsBehindThem)
+{
+  std::vector<View> views = SheetViews(2000);
+  const auto nearest = [&](const Eigen::Vector2d& pixel)
+  {
+    const auto& pixels = views[0].imagePoints;
+    return std::min_element(pixels.begin(), pixels.end(),
+             [&](const auto& a, const auto& b)
+             { return (a - pixel).norm() < (b - pixel).norm(); }) -
+      pixels.begin();
+  };
+  const std::size_t behind = nearest({ 500, 500 }), before = nearest({ 600, 500 });
+  const Eigen::Vector3d center = views[0].camera.Center();
+  views[0].points[behind] = center + 1.1 * (views[0].points[behind] - center);
+  views[0].points[before] = center + 0.9 * (views[0].points[before] - center);
+  RejectOutliersOptions options;
+  options.neighbors = 0;
+  options.violatingFeatures = 1;
+  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  EXPECT_FALSE(accepted[0][behind]);
+  EXPECT_TRUE(accepted[0][before]); // it claims too little, not too much
+  EXPECT_EQ(CountAccepted(accepted[0]), 1999u);
+  EXPECT_EQ(CountAccepted(accepted[1]), 2000u);
+  EXPECT_EQ(CountAccepted(accepted[2]), 2000u);
+}
+
+// The missed feature P of the paper's figure 4: one point in front violates the sheet's triangle, and
+// it is the constraint's business, not an outlier of the sheet's.
+TEST(RejectOutliers, AMissedFeatureRefutesNobody)
+{
+  std::vector<View> views = SheetViews(2000);
+  views[1].points.push_back(views[1].camera.Unproject({ 500, 500 }, 2));
+  views[1].imagePoints.emplace_back(500, 500);
+  RejectOutliersOptions options;
+  options.neighbors = 0;
+  options.violatingFeatures = 1;
+  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  EXPECT_EQ(CountAccepted(accepted[0]), 2000u);
+  EXPECT_EQ(CountAccepted(accepted[1]), 2001u);
+}
+
 TEST(RejectOutliers, ViewsKeepThreeFeatures)
 {
   std::vector<View> views = SheetViews(3);
@@ -125,6 +167,9 @@ TEST(RejectOutliers, OptionsOutOfRange)
   EXPECT_THROW(RejectOutliers({}, {}, options), Error);
   options = {};
   options.neighbors = -1;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options = {};
+  options.violatingFeatures = -1;
   EXPECT_THROW(RejectOutliers({}, {}, options), Error);
   options = {};
   options.nearest = 0;

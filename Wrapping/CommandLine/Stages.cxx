@@ -118,6 +118,14 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Disparity maps");
   command
+    .add_option("--violating", this->ViolatingFeatures,
+      "A triangle that so many features of other views violate is wrong, and with it the feature "
+      "that "
+      "it goes back to; 0: none is")
+    ->check(CLI::Range(0, 1000))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--longest-edge", this->LongestEdge,
       "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
     ->check(notNegative)
@@ -154,6 +162,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetTolerance(this->Tolerance);
   maps->SetSupportingNeighbors(this->SupportingNeighbors);
   maps->SetSeeThroughViews(this->SeeThroughViews);
+  maps->SetViolatingFeatures(this->ViolatingFeatures);
   maps->SetLongestEdge(this->LongestEdge);
   maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
   maps->SetKeepEdges(this->KeepEdges);

@@ -44,6 +44,7 @@ private:
   double Tolerance = 0.0002;
   int SupportingNeighbors = 2;
   int SeeThroughViews = 0;
+  int ViolatingFeatures = 0;
   double LongestEdge = 0;
   double GreatestDepthRatio = 0;
   bool KeepEdges = false;
