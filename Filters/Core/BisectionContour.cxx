@@ -361,8 +361,9 @@ private:
   void FindSharpVertices(BlockPlace& place) const
   {
     const ContourBlock& block = *place.block;
-    const double sharpCosine = std::cos(this->Options.sharpAngle * M_PI / 180.0);
-    std::vector<SurfacePlane> planes;
+    const double sharpAngle = this->Options.sharpAngle * M_PI / 180.0;
+    CrossingGrid grid;
+    std::vector<SurfacePlane> planes, around;
     for (std::size_t c = 0; c < block.cells.size(); ++c)
     {
       const auto& loops = CubeCases::Get().Loops(block.cases[c]);
@@ -370,28 +371,101 @@ private:
       {
         continue;
       }
-      planes.clear();
+      if (grid.crossings.empty())
+      {
+        this->FillGrid(place, grid);
+      }
       const LatticeIndex cell = CellOf(block.cells[c]);
+      planes.clear();
       for (int edge : loops[0])
       {
-        BlockPlace* owner = nullptr;
-        const std::size_t vertex =
-          this->FindVertex(place, FirstPoint(cell, edge), edge >> 2, owner);
-        if (vertex != Missing)
-        {
-          planes.push_back({ owner->block->Position(this->Lattice, vertex),
-            owner->block->normals[vertex].cast<double>() });
-        }
+        grid.Add(FirstPoint(cell, edge), edge >> 2, planes);
       }
+      if (planes.size() != loops[0].size() || !NormalsDiffer(planes, std::cos(sharpAngle / 2)))
+      {
+        continue; // most cells
+      }
+      around.clear();
+      grid.AddAround(cell, around);
+      SmoothNormals(planes, around, SmoothingRadius * this->Lattice.spacing);
       const Vector3d low = this->CellCorner(block, cell);
       const double room = SharpClearance * this->Lattice.spacing;
       const AlignedBox3d inner(
         low + Vector3d::Constant(room), low + Vector3d::Constant(this->Lattice.spacing - room));
       Vector3d position;
-      if (planes.size() == loops[0].size() &&
-        FindSharpFeature(planes, sharpCosine, inner, position))
+      if (FindSharpFeature(planes, std::cos(sharpAngle), inner, position))
       {
         place.sharp.push_back({ c, position });
+      }
+    }
+  }
+
+  /// The crossings of a block's cells and of those that touch them, by lattice edge.
+  struct CrossingGrid
+  {
+    static constexpr int Side = ContourBlock::Size + 3; ///< points -1 to Size + 1
+    std::vector<SurfacePlane> crossings;
+    std::array<std::int32_t, 3 * Side * Side * Side> at; ///< 1 + place in the crossings; 0: none
+
+    static bool Has(const LatticeIndex& point)
+    {
+      return std::all_of(
+        point.begin(), point.end(), [](int index) { return index >= -1 && index < Side - 1; });
+    }
+    static int Place(const LatticeIndex& point, int axis)
+    {
+      return 3 * (((point[2] + 1) * Side + point[1] + 1) * Side + point[0] + 1) + axis;
+    }
+    void Add(const LatticeIndex& point, int axis, std::vector<SurfacePlane>& planes) const
+    {
+      if (const int crossing = this->at[Place(point, axis)])
+      {
+        planes.push_back(this->crossings[crossing - 1]);
+      }
+    }
+    /// Those of a cell and of all that touch it.
+    void AddAround(const LatticeIndex& cell, std::vector<SurfacePlane>& planes) const
+    {
+      for (int k = -1; k <= 2; ++k)
+      {
+        for (int j = -1; j <= 2; ++j)
+        {
+          for (int i = -1; i <= 2; ++i)
+          {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              this->Add({ cell[0] + i, cell[1] + j, cell[2] + k }, axis, planes);
+            }
+          }
+        }
+      }
+    }
+  };
+
+  void FillGrid(const BlockPlace& place, CrossingGrid& grid) const
+  {
+    grid.at.fill(0);
+    const int size = ContourBlock::Size;
+    for (int n = 0; n < 27; ++n)
+    {
+      const LatticeIndex offset = { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
+      const LatticeIndex& at = place.block->at;
+      const BlockPlace* other =
+        this->FindPlace({ at[0] + offset[0], at[1] + offset[1], at[2] + offset[2] });
+      for (std::size_t v = 0; other && v < other->block->keys.size(); ++v)
+      {
+        LatticeIndex point = ContourBlock::PointOf(other->block->keys[v]);
+        for (int a = 0; a < 3; ++a)
+        {
+          point[a] += size * offset[a];
+        }
+        if (CrossingGrid::Has(point))
+        {
+          grid.crossings.push_back({ other->block->Position(this->Lattice, v),
+            other->block->normals[v].cast<double>() });
+          grid.at[CrossingGrid::Place(point, other->block->keys[v] % 3)] =
+            static_cast<std::int32_t>(grid.crossings.size());
+        }
       }
     }
   }
@@ -731,6 +805,9 @@ private:
   /// Sharp vertices keep so far from the sides of their cells, and new edges from those of the faces,
   /// in cells.
   static constexpr double SharpClearance = 0.01;
+
+  /// Over which normals are smoothed before they tell of sharp edges, in cells.
+  static constexpr double SmoothingRadius = 1.5;
 
   const BoundedField Field;
   const ContourLattice Lattice;

@@ -64,7 +64,9 @@ using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 /// With `sharp` on it is extended marching cubes (Kobbelt, Botsch, Schwanecke, Seidel, "Feature
 /// sensitive surface extraction from volume data", SIGGRAPH 2001): a cell whose crossings have normals
 /// that differ by more than the sharp angle gets a vertex where the crossings' planes meet, and edges
-/// are flipped to join such vertices of neighbouring cells. Only where that keeps the surface from
+/// are flipped to join such vertices of neighbouring cells. Normals are smoothed over about a cell
+/// first, and the vertex stays in its cell wherever the planes meet: what is finer than the lattice
+/// neither makes nor hides an edge. Only where that keeps the surface from
 /// meeting itself: in cells that one sheet passes, with the vertex inside of the cell, and over a face
 /// that one line crosses, with the new edge through it.
 ///

@@ -18,6 +18,14 @@ namespace
 /// a corner.
 constexpr double CornerSine = 0.5;
 
+/// Normals that differ by more are of different surfaces: 53 degrees.
+constexpr double SameSurfaceCosine = 0.6;
+
+Vector3d NearestInBox(const Eigen::AlignedBox3d& box, const Vector3d& point)
+{
+  return point.cwiseMax(box.min()).cwiseMin(box.max());
+}
+
 // Moves a point along a line to the place in the box that is nearest to it. False: none is.
 bool SlideIntoBox(const Vector3d& direction, const Eigen::AlignedBox3d& box, Vector3d& point)
 {
@@ -89,8 +97,49 @@ bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosin
     const Vector3d direction = eigen.eigenvectors().col(i);
     position += direction * (direction.dot(right) / std::max(eigen.eigenvalues()[i], 1e-6));
   }
-  return isCorner ? box.contains(position)
-                  : SlideIntoBox(eigen.eigenvectors().col(0), box, position);
+  if (isCorner || !SlideIntoBox(eigen.eigenvectors().col(0), box, position))
+  {
+    position = NearestInBox(box, position);
+  }
+  return true;
+}
+
+bool NormalsDiffer(const std::vector<SurfacePlane>& planes, double cosine)
+{
+  for (const SurfacePlane& a : planes)
+  {
+    for (const SurfacePlane& b : planes)
+    {
+      if (a.normal.dot(b.normal) < cosine)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void SmoothNormals(
+  std::vector<SurfacePlane>& planes, const std::vector<SurfacePlane>& around, double radius)
+{
+  const double scale = -0.5 / (radius * radius);
+  for (SurfacePlane& plane : planes)
+  {
+    Vector3d sum = Vector3d::Zero();
+    for (const SurfacePlane& other : around)
+    {
+      const double likeness = plane.normal.dot(other.normal) - SameSurfaceCosine;
+      if (likeness > 0)
+      {
+        sum +=
+          likeness * std::exp(scale * (other.point - plane.point).squaredNorm()) * other.normal;
+      }
+    }
+    if (sum.norm() > 0)
+    {
+      plane.normal = sum.normalized();
+    }
+  }
 }
 
 }

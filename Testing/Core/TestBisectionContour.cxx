@@ -329,6 +329,79 @@ TEST(BisectionContour, SharpModeRebuildsTheEdgesOfACube)
   }
 }
 
+// A cube whose faces have ripples much finer than the lattice, as the union of noisy views has.
+TEST(BisectionContour, SharpModeRebuildsTheEdgesOfARoughCube)
+{
+  constexpr int cells = 32;
+  constexpr double cell = 1.7 / (cells - 1), height = 0.045 * cell,
+                   frequency = 2 * M_PI / (0.43 * cell);
+  class Block : public ContourField
+  {
+  public:
+    // How far a face goes beyond 0.5 at a place on it.
+    static double Ripple(const Vector3d& p, int axis)
+    {
+      return height * std::sin(frequency * p[(axis + 1) % 3]) *
+        std::sin(frequency * p[(axis + 2) % 3]);
+    }
+    bool IsFree(const Vector3d& point, const FieldScope&) const override
+    {
+      const Vector3d p = this->Turn * point;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (std::abs(p[axis]) > 0.5 + Ripple(p, axis))
+        {
+          return true;
+        }
+      }
+      return false;
+    }
+    SurfaceLabel Label(const Vector3d& free, const Vector3d&, const FieldScope&) const override
+    {
+      const Vector3d p = this->Turn * free;
+      Eigen::Index axis;
+      p.cwiseAbs().maxCoeff(&axis);
+      const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+      Vector3d normal = std::copysign(1.0, p[axis]) * Vector3d::Unit(axis);
+      normal[a] = -height * frequency * std::cos(frequency * p[a]) * std::sin(frequency * p[b]);
+      normal[b] = -height * frequency * std::sin(frequency * p[a]) * std::cos(frequency * p[b]);
+      return { 0, SurfaceKind::Feature, this->Turn.transpose() * normal.normalized() };
+    }
+    Eigen::Matrix3d Turn;
+  };
+  Block block;
+  block.Turn = Eigen::AngleAxisd(0.2, Vector3d(1, 2, 3).normalized()).matrix();
+  ContourOptions options = Cells(cells);
+  options.tolerance = 1e-5;
+  options.sharp = true;
+  const ContourMesh sharp = BisectionContour(block, Cube(0.85), options);
+  EXPECT_EQ(TopologyFaults(sharp), "");
+  // How far short of the cube's edges the surface stays.
+  const int samples = 40;
+  int far = 0;
+  for (int i = 0; i < 12 * samples; ++i)
+  {
+    const int edge = i / samples, axis = edge / 4;
+    Vector3d p;
+    p[axis] = (i % samples + 0.5) / samples - 0.5;
+    p[(axis + 1) % 3] = edge & 1 ? 0.5 : -0.5;
+    p[(axis + 2) % 3] = edge & 2 ? 0.5 : -0.5;
+    const Vector3d place = block.Turn.transpose() * p;
+    double least = HUGE_VAL;
+    for (const auto& t : sharp.triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const Vector3d &a = sharp.points[t[k]], &b = sharp.points[t[(k + 1) % 3]];
+        const double s = std::clamp((place - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (a + s * (b - a) - place).norm());
+      }
+    }
+    far += least > 0.25 * cell;
+  }
+  EXPECT_LE(far, 12 * samples / 20);
+}
+
 TEST(BisectionContour, AwkwardInput)
 {
   EXPECT_TRUE(BisectionContour(Ball(), AlignedBox3d(), {}).points.empty());
