@@ -2,6 +2,7 @@
 #include "Turntable.h"
 
 #include "Error.h"
+#include "LookAt.h"
 
 #include <cmath>
 
@@ -30,17 +31,6 @@ Eigen::Vector3d PointNearestToAxes(const std::vector<Camera>& cameras)
   return system.ldlt().solve(right);
 }
 
-Camera LookFrom(const Camera& like, const Eigen::Vector3d& center, const Eigen::Vector3d& middle,
-  const Eigen::Vector3d& up)
-{
-  Camera camera = like;
-  const Eigen::Vector3d forward = (middle - center).normalized();
-  const Eigen::Vector3d right = forward.cross(up).normalized();
-  camera.R << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-  camera.t = -camera.R * center;
-  return camera;
-}
-
 }
 
 std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int count)
@@ -50,16 +40,11 @@ std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int cou
     throw Error("A turntable needs a camera to begin with.");
   }
   const Eigen::Vector3d middle = PointNearestToAxes(cameras);
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  for (const Camera& camera : cameras)
-  {
-    up -= camera.R.row(1).transpose() / cameras.size();
-  }
-  if (!(up.norm() > 0.05))
+  const Eigen::Vector3d up = MeanUp(cameras);
+  if (up.isZero())
   {
     throw Error("The cameras are turned every way: there is no up for a turntable.");
   }
-  up.normalize();
   double height = 0;
   double radius = 0;
   for (const Camera& camera : cameras)
@@ -76,7 +61,7 @@ std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int cou
   {
     const double angle = 2 * M_PI * i / count;
     const Eigen::Vector3d around = std::cos(angle) * start + std::sin(angle) * side;
-    path.push_back(LookFrom(cameras[0], middle + radius * around + height * up, middle, up));
+    path.push_back(LookAt(cameras[0], middle + radius * around + height * up, middle, up));
   }
   return path;
 }

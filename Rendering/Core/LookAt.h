@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_LookAt_h
+#define freespace_LookAt_h
+
+#include "Camera.h"
+
+#include <vector>
+
+namespace freespace
+{
+
+/// The camera at `center`, turned to `middle`, upright, with the intrinsics of another one. `up` must
+/// not be parallel to the line of sight.
+Camera LookAt(const Camera& like, const Eigen::Vector3d& center, const Eigen::Vector3d& middle,
+  const Eigen::Vector3d& up);
+
+/// Where cameras have up, on the whole: the mean of their own, of length 1. Zero when they are turned
+/// every way, or when there is none.
+Eigen::Vector3d MeanUp(const std::vector<Camera>& cameras);
+
+}
+
+#endif
