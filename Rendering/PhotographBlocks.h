@@ -4,6 +4,7 @@
 
 #include "Photograph.h"
 #include "TriangleMesh.h"
+#include "vtkFreespaceRenderingModule.h"
 
 class vtkMultiBlockDataSet;
 class vtkPolyData;
@@ -16,7 +17,7 @@ namespace freespace
 std::vector<Photograph> PhotographsFromBlocks(vtkMultiBlockDataSet* blocks);
 
 /// The triangles of a surface; strips and larger polygons are cut into triangles.
-TriangleMesh MeshFromPolyData(vtkPolyData* surface);
+VTKFREESPACERENDERING_EXPORT TriangleMesh MeshFromPolyData(vtkPolyData* surface);
 
 }
 

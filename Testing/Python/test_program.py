@@ -11,7 +11,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
-COMMANDS = ('reconstruct', 'clusters', 'stereo', 'triangulate', 'contour', 'render')
+COMMANDS = ('reconstruct', 'sparse', 'calibrate', 'clusters', 'stereo', 'triangulate', 'contour', 'query', 'render',
+            'texture', 'occupancy', 'view', 'report')
 
 
 def run(*arguments, cwd=None):

@@ -21,6 +21,7 @@ void AddQueryCommand(CLI::App& program, Session& session);
 void AddRenderCommand(CLI::App& program, Session& session);
 void AddTextureCommand(CLI::App& program, Session& session);
 void AddOccupancyCommand(CLI::App& program, Session& session);
+void AddReportCommand(CLI::App& program, Session& session);
 void AddViewCommand(CLI::App& program, Session& session);
 
 }

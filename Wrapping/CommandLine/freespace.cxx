@@ -118,6 +118,7 @@ int Run(int argc, char* argv[])
   freespace::AddRenderCommand(program, session);
   freespace::AddTextureCommand(program, session);
   freespace::AddOccupancyCommand(program, session);
+  freespace::AddReportCommand(program, session);
   freespace::AddViewCommand(program, session);
   LetConfigRunCommands(program, argc, argv);
   try

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_StageRecord_h
+#define freespace_StageRecord_h
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// What a folder's files were made with, so that a later run can take them up: for each stage its options
+/// and how long it took. It lies beside them as a JSON file.
+class StageRecord
+{
+public:
+  /// Reads the record. A file that is not there or no record is an empty one: then all is made anew.
+  explicit StageRecord(const std::string& file);
+
+  /// Whether a stage's output was made with these options and is as new as all of its inputs. An input
+  /// that is a folder counts as its newest file.
+  bool IsCurrent(const std::string& stage, const std::vector<std::string>& options,
+    const std::string& output, const std::vector<std::string>& inputs) const;
+
+  /// How long the stage took when it was made, seconds.
+  double Seconds(const std::string& stage) const;
+
+  /// Notes that a stage was made, and writes the record. Throws Error when that fails.
+  void Set(const std::string& stage, const std::vector<std::string>& options, double seconds);
+
+private:
+  struct Stage
+  {
+    std::vector<std::string> options;
+    double seconds = 0;
+  };
+
+  void Write() const;
+
+  std::string File;
+  std::map<std::string, Stage> Stages;
+};
+
+/// When a file was written; of a folder, the newest file in it. The epoch's begin when there is none.
+std::filesystem::file_time_type NewestTime(const std::string& path);
+
+}
+
+#endif
