@@ -47,6 +47,12 @@ vtkSmartPointer<vtkMultiBlockDataSet> PickViews(vtkMultiBlockDataSet* features, 
   return picked;
 }
 
+// So that dark features stand out from the dark background.
+double Lightened(double color)
+{
+  return 90 + color * 165 / 255;
+}
+
 vtkSmartPointer<vtkPolyData> Cloud(vtkMultiBlockDataSet* features)
 {
   vtkNew<vtkPoints> points;
@@ -63,7 +69,8 @@ vtkSmartPointer<vtkPolyData> Cloud(vtkMultiBlockDataSet* features)
     {
       const vtkIdType id = points->InsertNextPoint(view->GetPoint(i));
       vertices->InsertNextCell(1, &id);
-      colors->InsertNextTuple(known ? known->GetTuple(i) : plain);
+      const double* color = known ? known->GetTuple(i) : plain;
+      colors->InsertNextTuple3(Lightened(color[0]), Lightened(color[1]), Lightened(color[2]));
     }
   }
   auto cloud = vtkSmartPointer<vtkPolyData>::New();

@@ -17,6 +17,7 @@ namespace
 {
 
 constexpr double drawingWidth = 960;
+constexpr double mostHeight = 680;
 constexpr double margin = 34;
 constexpr std::size_t mostPoints = 6000;
 
@@ -83,24 +84,21 @@ double PyramidDepth(const std::vector<Camera>& cameras, const Eigen::Vector3d& m
   return 0.14 * sum;
 }
 
-/// Scales the drawing to its width.
+/// Scales the drawing to its width or, where that would be too high, to its height.
 struct Frame
 {
   Eigen::AlignedBox2d box;
 
   double Scale() const
   {
-    const double wide = std::max(this->box.sizes().x(), 1e-12);
-    return (drawingWidth - 2 * margin) / wide;
+    const Eigen::Vector2d size = this->box.sizes().cwiseMax(1e-12);
+    return std::min((drawingWidth - 2 * margin) / size.x(), (mostHeight - 2 * margin) / size.y());
   }
-  double Height() const
-  {
-    return std::min(2 * drawingWidth, this->box.sizes().y() * this->Scale() + 2 * margin);
-  }
+  double Height() const { return this->box.sizes().y() * this->Scale() + 2 * margin; }
   std::string At(const Eigen::Vector2d& point) const
   {
-    const Eigen::Vector2d at =
-      (point - this->box.min()) * this->Scale() + Eigen::Vector2d(margin, margin);
+    const Eigen::Vector2d middle(drawingWidth / 2, this->Height() / 2);
+    const Eigen::Vector2d at = (point - this->box.center()) * this->Scale() + middle;
     char text[64];
     std::snprintf(text, sizeof(text), "%.1f %.1f", at.x(), at.y());
     return text;
