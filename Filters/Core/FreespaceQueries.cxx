@@ -108,9 +108,17 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
   }
   std::vector<Change> changes;
   Intervals intervals;
-  for (std::size_t i = 0; i < phi.NumberOfViews(); ++i)
+  // Within the hull only the views that are undecided around the segment change their mind along it.
+  AlignedBox3d way(first + enters * (last - first));
+  way.extend(first + leaves * (last - first));
+  const FieldScope scope = phi.ScopeAround(way);
+  if (scope.freeViews >= phi.MinimumViews())
   {
-    phi.ViewAt(i).FreeIntervals(first, last, intervals);
+    return HUGE_VAL;
+  }
+  for (int view : scope.views)
+  {
+    phi.ViewAt(view).FreeIntervals(first, last, intervals);
     for (const auto& [begin, end] : intervals)
     {
       changes.push_back({ begin, 1 });
@@ -121,7 +129,7 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
   std::sort(changes.begin(), changes.end(),
     [](const Change& a, const Change& b) { return a.at < b.at || (a.at == b.at && a.by > b.by); });
   double blocked = enters;
-  int claims = 0;
+  int claims = scope.freeViews;
   for (const Change& change : changes)
   {
     const bool wasFree = claims >= phi.MinimumViews();
@@ -145,14 +153,14 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
 
 bool IsBoxFree(const FreespaceUnion& phi, const AlignedBox3d& box)
 {
-  return FreeBoxTest(phi, box.center(), HUGE_VAL).IsFree(box, phi.Root(), 0);
+  return FreeBoxTest(phi, box.center(), HUGE_VAL).IsFree(box, phi.ScopeAround(box), 0);
 }
 
 bool IsSphereFree(const FreespaceUnion& phi, const Vector3d& center, double radius)
 {
   const Vector3d reach = Vector3d::Constant(radius);
-  return FreeBoxTest(phi, center, radius)
-    .IsFree(AlignedBox3d(center - reach, center + reach), phi.Root(), 0);
+  const AlignedBox3d box(center - reach, center + reach);
+  return FreeBoxTest(phi, center, radius).IsFree(box, phi.ScopeAround(box), 0);
 }
 
 }

@@ -117,13 +117,22 @@ FreespaceUnion::Winner FreespaceUnion::Evaluate(const Vector3d& point) const
   }
   const Winner hull = { this->Hull().Distance(plane, point), this->Hull().Normal(plane) };
   std::vector<Winner> claims;
-  for (const auto& view : this->Views)
+  const auto ask = [&](const ViewFreespace& view)
   {
-    const ViewFreespace::Sample sample = view->At(point);
+    const ViewFreespace::Sample sample = view.At(point);
     if (sample.triangle >= 0)
     {
       claims.push_back({ sample.value, sample.gradient });
     }
+  };
+  if (this->ClaimIndex().Contains(point))
+  {
+    const ViewIndex::Part part = this->ClaimIndex().At(point);
+    std::for_each(part.begin, part.end, [&](int view) { ask(*this->Views[view]); });
+  }
+  else
+  {
+    std::for_each(this->Views.begin(), this->Views.end(), [&](const auto& view) { ask(*view); });
   }
   const std::size_t k = static_cast<std::size_t>(this->Options.minimumViews);
   if (claims.size() < k)
@@ -155,16 +164,70 @@ FieldScope FreespaceUnion::Root() const
   return scope;
 }
 
+// Deep, because a part that a view has decided costs nothing more to ask.
+const ViewIndex& FreespaceUnion::FreeIndex() const
+{
+  static constexpr int deepestLevel = 7;
+  std::call_once(this->FreeIsIndexed,
+    [this]
+    {
+      this->Free = std::make_unique<ViewIndex>(
+        this->Views, this->Hull().Bounds(),
+        [](const ViewFreespace& view, const Eigen::AlignedBox3d& box)
+        { return view.Classify(box); },
+        this->Options.minimumViews, deepestLevel);
+    });
+  return *this->Free;
+}
+
+// Shallow: the cones that views look into are wide.
+const ViewIndex& FreespaceUnion::ClaimIndex() const
+{
+  static constexpr int deepestLevel = 4;
+  std::call_once(this->ClaimsAreIndexed,
+    [this]
+    {
+      this->Claims = std::make_unique<ViewIndex>(
+        this->Views, this->Hull().Bounds(),
+        [](const ViewFreespace& view, const Eigen::AlignedBox3d& box)
+        { return view.MayClaim(box) ? BoxContent::Mixed : BoxContent::Matter; },
+        this->Options.minimumViews, deepestLevel);
+    });
+  return *this->Claims;
+}
+
+FieldScope FreespaceUnion::ScopeAround(const Eigen::AlignedBox3d& box) const
+{
+  FieldScope scope = this->Root();
+  if (!this->Hull().IsEmpty() && this->FreeIndex().Contains(box))
+  {
+    const ViewIndex::Part part = this->FreeIndex().Around(box);
+    scope.views.assign(part.begin, part.end);
+    scope.freeViews = part.freeViews;
+  }
+  return scope;
+}
+
 bool FreespaceUnion::IsSeenFree(const Vector3d& point) const
 {
+  const int enough = this->Options.minimumViews;
   int free = 0;
-  return std::any_of(this->Views.begin(), this->Views.end(),
-    [&](const auto& view) { return view->IsFree(point) && ++free == this->Options.minimumViews; });
+  const auto tells = [&](const ViewFreespace& view)
+  { return view.IsFree(point) && ++free >= enough; };
+  if (!this->Hull().Bounds().contains(point))
+  {
+    return std::any_of(
+      this->Views.begin(), this->Views.end(), [&](const auto& view) { return tells(*view); });
+  }
+  const ViewIndex::Part part = this->FreeIndex().At(point);
+  free = part.freeViews;
+  return free >= enough ||
+    std::any_of(part.begin, part.end, [&](int view) { return tells(*this->Views[view]); });
 }
 
 bool FreespaceUnion::IsFree(const Vector3d& point) const
 {
-  if (this->IsSeenFree(point))
+  if (!this->Hull().Bounds().contains(point) || this->IsSeenFree(point))
   {
     return true;
   }
@@ -174,7 +237,7 @@ bool FreespaceUnion::IsFree(const Vector3d& point) const
 
 bool FreespaceUnion::IsFree(const Vector3d& point, const FieldScope& scope) const
 {
-  if (this->Hull().IsEmpty())
+  if (this->Hull().IsEmpty() || scope.freeViews >= this->Options.minimumViews)
   {
     return true;
   }
@@ -199,7 +262,7 @@ bool FreespaceUnion::IsFree(const Vector3d& point, const FieldScope& scope) cons
 BoxContent FreespaceUnion::Classify(
   const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const
 {
-  if (this->Hull().IsEmpty())
+  if (this->Hull().IsEmpty() || parent.freeViews >= this->Options.minimumViews)
   {
     return BoxContent::Free;
   }

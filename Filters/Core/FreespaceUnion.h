@@ -5,8 +5,10 @@
 #include "FeatureHull.h"
 #include "ParallelFor.h"
 #include "ViewFreespace.h"
+#include "ViewIndex.h"
 
 #include <memory>
+#include <mutex>
 
 namespace freespace
 {
@@ -51,6 +53,10 @@ public:
 
   bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
   FieldScope Root() const override;
+
+  /// What is left open around a box: fewer views than at the root.
+  FieldScope ScopeAround(const Eigen::AlignedBox3d& box) const;
+
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
 
@@ -79,9 +85,14 @@ private:
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
+  const ViewIndex& FreeIndex() const;
+  const ViewIndex& ClaimIndex() const;
+
   FreespaceUnionOptions Options;
   std::vector<std::unique_ptr<ViewFreespace>> Views;
   std::unique_ptr<FeatureHull> FeaturesHull;
+  mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< when they are first needed
+  mutable std::unique_ptr<ViewIndex> Free, Claims;
 };
 
 }

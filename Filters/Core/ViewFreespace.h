@@ -63,6 +63,12 @@ public:
   /// themselves: it tends to the exact answer as the box shrinks. Mixed for larger boxes.
   BoxContent ClassifyFinely(const Eigen::AlignedBox3d& box) const;
 
+  /// Whether the view may claim some point of the box, as free or as matter. Conservative.
+  bool MayClaim(const Eigen::AlignedBox3d& box) const
+  {
+    return !this->Triangles.empty() && !this->FootprintOf(box).isBehind;
+  }
+
   std::size_t NumberOfTriangles() const { return this->Triangles.size(); }
 
 private:
