@@ -2,6 +2,8 @@
 #include "ContinueBackground.h"
 
 #include "Error.h"
+#include "FeatureCloud.h"
+#include "OverlappingViews.h"
 #include "ViewFreespace.h"
 
 #include <algorithm>
@@ -136,17 +138,18 @@ BridgeMask::BridgeMask(const Scene& scene)
 class BackgroundContinuer
 {
 public:
-  BackgroundContinuer(const std::vector<std::unique_ptr<Scene>>& scenes, std::size_t index,
-    const ContinueBackgroundOptions& options)
-    : Scenes(scenes)
-    , Index(index)
+  /// The scenes of the other views that see a part of what this one sees.
+  using Others = std::vector<const Scene*>;
+
+  BackgroundContinuer(const Scene& own, Others others, const ContinueBackgroundOptions& options)
+    : Own(own)
+    , OtherScenes(std::move(others))
     , Options(options)
-    , Own(*scenes[index])
     , Stamp(this->Own.map.points.size(), -1)
   {
   }
 
-  DisparityMap Continue(const std::vector<View>& views);
+  DisparityMap Continue(const FeatureCloud& cloud);
 
 private:
   struct SetBackBridge
@@ -156,7 +159,7 @@ private:
   };
 
   std::vector<SetBackBridge> RefutedBridges();
-  std::vector<std::vector<Vector3d>> PointsInBridges(const std::vector<View>& views) const;
+  std::vector<std::vector<Vector3d>> PointsInBridges(const FeatureCloud& cloud) const;
   double MiddleOfJump(std::size_t triangle) const;
   bool IsRefuted(std::size_t triangle) const;
   std::optional<double> SetBack(std::size_t triangle, int near);
@@ -169,10 +172,9 @@ private:
     const std::vector<Vector3d>& points) const;
   double DistanceToNearSide(std::size_t triangle, const Vector2d& pixel) const;
 
-  const std::vector<std::unique_ptr<Scene>>& Scenes;
-  std::size_t Index;
-  const ContinueBackgroundOptions& Options;
   const Scene& Own;
+  Others OtherScenes;
+  const ContinueBackgroundOptions& Options;
   std::vector<int> Stamp; // of the last search that came by a point
   int Search = 0;
 };
@@ -199,12 +201,12 @@ bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
       place += weight[i] * this->Own.map.points[corner[i]];
     }
     int seenThrough = 0;
-    for (std::size_t v = 0; v < this->Scenes.size(); ++v)
+    for (const Scene* other : this->OtherScenes)
     {
-      const ViewFreespace::Sample sample = this->Scenes[v]->freespace.At(place);
-      const double depth = this->Scenes[v]->map.camera.Depth(place);
-      seenThrough += v != this->Index && sample.triangle >= 0 &&
-        sample.value > SeeThrough * this->Options.noise * depth;
+      const ViewFreespace::Sample sample = other->freespace.At(place);
+      const double depth = other->map.camera.Depth(place);
+      seenThrough +=
+        sample.triangle >= 0 && sample.value > SeeThrough * this->Options.noise * depth;
     }
     if (seenThrough >= this->Options.views)
     {
@@ -295,14 +297,11 @@ std::optional<double> BackgroundContinuer::Crossing(
 double BackgroundContinuer::SurfaceBehind(const Vector2d& pixel, double from, double to) const
 {
   std::optional<double> nearest;
-  for (std::size_t v = 0; v < this->Scenes.size(); ++v)
+  for (const Scene* other : this->OtherScenes)
   {
-    if (v != this->Index)
-    {
-      // Only what is nearer than all before can matter.
-      const auto crossing = this->Crossing(*this->Scenes[v], pixel, from, nearest.value_or(to));
-      nearest = crossing ? crossing : nearest;
-    }
+    // Only what is nearer than all before can matter.
+    const auto crossing = this->Crossing(*other, pixel, from, nearest.value_or(to));
+    nearest = crossing ? crossing : nearest;
   }
   return nearest.value_or(0);
 }
@@ -417,34 +416,31 @@ std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBrid
 
 // All views' points that project into bridges, by triangle.
 std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
-  const std::vector<View>& views) const
+  const FeatureCloud& cloud) const
 {
   std::vector<std::vector<Vector3d>> points(this->Own.map.triangles.size());
   const BridgeMask mask(this->Own);
-  for (const View& view : views)
-  {
-    for (const Vector3d& point : view.points)
+  cloud.VisitSeen(this->Own.map.camera,
+    [&](const FeatureCloud::Feature& feature)
     {
-      if (!mask.MayHold(this->Own.map.camera.Project(point)))
+      if (mask.MayHold(this->Own.map.camera.Project(feature.point)))
       {
-        continue;
+        const int triangle = this->Own.freespace.At(feature.point).triangle;
+        if (triangle >= 0 && this->Own.isBridge[triangle])
+        {
+          points[triangle].push_back(feature.point);
+        }
       }
-      const int triangle = this->Own.freespace.At(point).triangle;
-      if (triangle >= 0 && this->Own.isBridge[triangle])
-      {
-        points[triangle].push_back(point);
-      }
-    }
-  }
+    });
   return points;
 }
 
-DisparityMap BackgroundContinuer::Continue(const std::vector<View>& views)
+DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud)
 {
   DisparityMap map = this->Own.map;
   std::vector<double> disparity = this->Own.disparity;
   std::vector<std::vector<int>> setBack(map.points.size()); // behind each point
-  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(views);
+  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud);
   for (const SetBackBridge& bridge : this->RefutedBridges())
   {
     if (this->IsViolated(bridge.triangle, bridge.disparity, points[bridge.triangle]))
@@ -518,13 +514,20 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>
         scenes[v] = std::make_unique<Scene>(maps[v], options);
       }
     });
+  const FeatureCloud cloud(views);
+  const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   std::vector<DisparityMap> continued(maps.size());
   parallelFor(maps.size(),
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        continued[v] = BackgroundContinuer(scenes, v, options).Continue(views);
+        BackgroundContinuer::Others others;
+        for (int other : overlapping[v])
+        {
+          others.push_back(scenes[other].get());
+        }
+        continued[v] = BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud);
       }
     });
   maps = std::move(continued);

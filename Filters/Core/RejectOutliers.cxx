@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
+#include "OverlappingViews.h"
 #include "ViewFreespace.h"
 #include "ViolatedTriangles.h"
 
@@ -158,21 +159,18 @@ std::vector<char> SupportedPoints(const DisparityMap& map, const RejectOutliersO
   return supported;
 }
 
-// Whether too many other views see through a point.
-bool IsSeenThrough(const Vector3d& point, std::size_t own,
+// Whether too many of the other views see through a point.
+bool IsSeenThrough(const Vector3d& point, const std::vector<int>& others,
   const std::vector<std::unique_ptr<ViewFreespace>>& freespaces,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options)
 {
   int through = 0, agreeing = 0;
-  for (std::size_t v = 0; v < maps.size(); ++v)
+  for (int v : others)
   {
-    if (v != own)
-    {
-      const ViewFreespace::Sample sample = freespaces[v]->At(point);
-      const double room = Agreement * options.noise * maps[v].camera.Depth(point);
-      through += sample.triangle >= 0 && sample.value > room;
-      agreeing += sample.triangle >= 0 && std::abs(sample.value) <= room;
-    }
+    const ViewFreespace::Sample sample = freespaces[v]->At(point);
+    const double room = Agreement * options.noise * maps[v].camera.Depth(point);
+    through += sample.triangle >= 0 && sample.value > room;
+    agreeing += sample.triangle >= 0 && std::abs(sample.value) <= room;
   }
   return through >= options.seeThroughViews && through > agreeing;
 }
@@ -264,6 +262,8 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
     });
   const FeatureCloud cloud(
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
+  const auto overlapping =
+    options.seeThroughViews > 0 ? OverlappingViews(maps) : std::vector<std::vector<int>>();
   forEachView(
     [&](std::size_t v)
     {
@@ -278,7 +278,7 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
       {
         passed[p] = passed[p] && !behind[p] &&
           (options.seeThroughViews == 0 ||
-            !IsSeenThrough(maps[v].points[p], v, freespaces, maps, options));
+            !IsSeenThrough(maps[v].points[p], overlapping[v], freespaces, maps, options));
       }
       accepted[v] = OfFeatures(views[v], maps[v], passed);
     });
