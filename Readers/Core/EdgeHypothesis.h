@@ -25,6 +25,7 @@ struct EdgeHypothesis
   double score = 0; ///< the lower the better, 0 for no match
   int begin = 0;
   int count = 0;
+  bool promising = false; ///< a third image almost confirms it
 
   bool Empty() const { return this->count == 0; }
 

@@ -32,10 +32,11 @@ struct EdgeTokenOptions
   void Check() const;
 };
 
-/// What an edge looks like on one side: colours at four distances from it, blue, green and red
-/// each, then zeros up to a length that processors compare at once.
-using EdgeSide = std::array<std::uint8_t, 16>;
-constexpr int EdgeSideColors = 12; ///< how many of its values are used
+/// A colour: blue, green, red and a zero, so that processors take it at once.
+using EdgeColor = std::array<std::uint8_t, 4>;
+
+/// What an edge looks like on one side: its colours at four distances from it.
+using EdgeSide = std::array<EdgeColor, 4>;
 
 /// A piece of an image edge, about one pixel long.
 struct EdgeToken
@@ -47,7 +48,7 @@ struct EdgeToken
                             ///< of middle grey
   EdgeSide bright; ///< colours 1.5, 2.5, 3.5 and 5 pixels from the edge on its brighter side
   EdgeSide dark;   ///< and on the darker one
-  std::array<std::uint8_t, 3> color; ///< at the edge itself, blue, green, red
+  EdgeColor color; ///< at the edge itself
 
   Eigen::Vector2d Normal() const { return { -this->tangent.y(), this->tangent.x() }; }
 

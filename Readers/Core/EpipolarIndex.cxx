@@ -10,18 +10,11 @@ namespace freespace
 namespace
 {
 
-struct RectifiedSegment
-  : EpipolarIndex::Span
-  , EpipolarIndex::Segment
-{
-};
-
-std::vector<RectifiedSegment> RectifiedSegments(
+std::vector<EpipolarIndex::Piece> RectifiedPieces(
   const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
   constexpr double leastScale = 0.34; // cosine of 70 degrees
-  std::vector<RectifiedSegment> segments;
-  segments.reserve(edges.tokens.size());
+  std::vector<EpipolarIndex::Piece> pieces(edges.tokens.size());
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
   {
     EpipolarPair::Ray next = pair.FromOther(edges.tokens[edges.begin[chain]].position);
@@ -37,82 +30,104 @@ std::vector<RectifiedSegment> RectifiedSegments(
       const Eigen::Vector2d tangent = (pair.OtherJacobian(ray) * token.tangent).normalized();
       if (std::abs(tangent.y()) >= minimumSine)
       {
-        segments.push_back(
-          { { static_cast<float>(std::min(ray.v, next.v)),
-              static_cast<float>(std::max(ray.v, next.v)), static_cast<float>(ray.u),
-              static_cast<float>(ray.v), static_cast<float>((next.u - ray.u) / (next.v - ray.v)) },
-            { static_cast<float>(tangent.x()), static_cast<float>(tangent.y()),
-              static_cast<float>(token.Uncertainty()), i } });
+        EpipolarIndex::Piece& piece = pieces[i];
+        piece.low = static_cast<float>(std::min(ray.v, next.v));
+        piece.high = static_cast<float>(std::max(ray.v, next.v));
+        piece.u = static_cast<float>(ray.u);
+        piece.v = static_cast<float>(ray.v);
+        piece.slope = static_cast<float>((next.u - ray.u) / (next.v - ray.v));
+        piece.tangentU = static_cast<float>(tangent.x());
+        piece.tangentV = static_cast<float>(tangent.y());
+        piece.uncertainty = static_cast<float>(token.Uncertainty());
       }
     }
   }
-  return segments;
+  return pieces;
 }
 
+}
+
+// Calls visit(cell, piece) for each row that a piece touches.
+template <typename Visitor>
+void EpipolarIndex::VisitCells(Visitor&& visit) const
+{
+  for (const Piece& piece : this->Pieces)
+  {
+    if (!piece.Empty())
+    {
+      const int first = static_cast<int>(std::floor(piece.low) - this->FirstRow);
+      const int last = static_cast<int>(std::floor(piece.high) - this->FirstRow);
+      const int column = this->ColumnOf(piece.u);
+      for (int row = first; row <= last; ++row)
+      {
+        visit((2 * row + (piece.tangentV > 0)) * this->Columns + column, piece);
+      }
+    }
+  }
 }
 
 EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
-  const std::vector<RectifiedSegment> segments = RectifiedSegments(pair, edges, minimumSine);
-  if (segments.empty())
+  this->Pieces = RectifiedPieces(pair, edges, minimumSine);
+  const int count = this->FindBounds();
+  if (count == 0)
   {
     return;
   }
+  const std::size_t cells = static_cast<std::size_t>(2) * this->Rows * this->Columns;
+  this->Begin.assign(cells + 1, 0);
+  this->VisitCells([this](int cell, const Piece&) { ++this->Begin[cell + 1]; });
+  for (std::size_t cell = 0; cell < cells; ++cell)
+  {
+    this->Begin[cell + 1] += this->Begin[cell];
+  }
+  this->Blocks.resize((this->Begin.back() + 3) / 4);
+  std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
+  this->VisitCells(
+    [&](int cell, const Piece& piece)
+    {
+      const int i = next[cell]++ % 4;
+      PieceBlock& block = this->Blocks[(next[cell] - 1) / 4];
+      block.low[i] = piece.low;
+      block.high[i] = piece.high;
+      block.u[i] = piece.u;
+      block.v[i] = piece.v;
+      block.slope[i] = piece.slope;
+      block.tangentU[i] = piece.tangentU;
+      block.tangentV[i] = piece.tangentV;
+      block.token[i] = static_cast<int>(&piece - this->Pieces.data());
+    });
+}
+
+// Where the pieces lie and how wide a cell is; returns how many there are.
+int EpipolarIndex::FindBounds()
+{
   constexpr float most = std::numeric_limits<float>::max();
   float low = most, high = -most, left = most, right = -most;
-  for (const RectifiedSegment& segment : segments)
+  int count = 0;
+  for (const Piece& piece : this->Pieces)
   {
-    low = std::min(low, segment.low);
-    high = std::max(high, segment.high);
-    left = std::min(left, segment.u);
-    right = std::max(right, segment.u);
-    this->Widest = std::max(this->Widest, std::abs(segment.slope) * (segment.high - segment.low));
-  }
-  this->FirstRow = std::floor(low);
-  this->FirstColumn = left;
-  this->Rows = static_cast<int>(std::floor(high) - this->FirstRow) + 1;
-  // At most a few cells for each segment, however the images are stretched.
-  const float cells = 4.0f * static_cast<float>(segments.size());
-  this->CellWidth = std::max(this->CellWidth, (right - left) * 2 * this->Rows / cells);
-  this->Columns = static_cast<int>((right - left) / CellWidth) + 1;
-  const auto visitCells = [this](const RectifiedSegment& segment, auto&& visit)
-  {
-    const int first = static_cast<int>(std::floor(segment.low) - this->FirstRow);
-    const int last = static_cast<int>(std::floor(segment.high) - this->FirstRow);
-    const int column = this->ColumnOf(segment.u);
-    for (int row = first; row <= last; ++row)
+    if (!piece.Empty())
     {
-      visit((2 * row + (segment.tangentV > 0)) * this->Columns + column);
+      low = std::min(low, piece.low);
+      high = std::max(high, piece.high);
+      left = std::min(left, piece.u);
+      right = std::max(right, piece.u);
+      this->Widest = std::max(this->Widest, std::abs(piece.slope) * (piece.high - piece.low));
+      ++count;
     }
-  };
-  this->Begin.assign(static_cast<std::size_t>(2) * this->Rows * this->Columns + 1, 0);
-  for (const RectifiedSegment& segment : segments)
-  {
-    visitCells(segment, [this](int cell) { ++this->Begin[cell + 1]; });
   }
-  for (std::size_t cell = 1; cell < this->Begin.size(); ++cell)
+  if (count > 0)
   {
-    this->Begin[cell] += this->Begin[cell - 1];
+    this->FirstRow = std::floor(low);
+    this->FirstColumn = left;
+    this->Rows = static_cast<int>(std::floor(high) - this->FirstRow) + 1;
+    // At most a few cells for each piece, however the images are stretched.
+    const float cells = 4.0f * static_cast<float>(count);
+    this->CellWidth = std::max(this->CellWidth, (right - left) * 2 * this->Rows / cells);
+    this->Columns = static_cast<int>((right - left) / this->CellWidth) + 1;
   }
-  const std::size_t count = this->Begin.back();
-  this->Segments.resize(count);
-  this->Spans.resize((count + 3) / 4);
-  std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
-  for (const RectifiedSegment& segment : segments)
-  {
-    visitCells(segment,
-      [&](int cell)
-      {
-        const int i = next[cell]++;
-        this->Segments[i] = segment;
-        SpanBlock& spans = this->Spans[i / 4];
-        spans.low[i % 4] = segment.low;
-        spans.high[i % 4] = segment.high;
-        spans.u[i % 4] = segment.u;
-        spans.v[i % 4] = segment.v;
-        spans.slope[i % 4] = segment.slope;
-      });
-  }
+  return count;
 }
 
 }

@@ -17,29 +17,56 @@ namespace freespace
 class EpipolarIndex
 {
 public:
-  /// Where a piece from one token to the next lies, in rectified pixels.
-  struct Span
+  /// What lies between one token and the next of its chain, in rectified pixels.
+  struct Piece
   {
-    float low, high; ///< rows between which it lies
-    float u, v;      ///< where it starts
-    float slope;     ///< du / dv
-  };
-  /// What else is known of it.
-  struct Segment
-  {
-    float tangentU, tangentV; ///< unit tangent of the token where it starts
-    float uncertainty;        ///< of that token
-    int token;
+    float low = 0, high = 0;          ///< rows between which it lies: [low, high)
+    float u = 0, v = 0;               ///< where it starts
+    float slope = 0;                  ///< du / dv
+    float tangentU = 0, tangentV = 0; ///< unit tangent of the token where it starts
+    float uncertainty = 0;            ///< of that token
+
+    bool Empty() const { return !(this->low < this->high); }
+    bool Crosses(float row) const { return row >= this->low && row < this->high; }
+    float ColumnAt(float row) const { return this->u + (row - this->v) * this->slope; }
   };
 
-  /// Leaves out what lies more than 70 degrees off the rectified axis, next to the other camera's
-  /// direction, and what makes an angle of less than asin(minimumSine) with the rows.
+  /// Empty pieces stand for what lies more than 70 degrees off the rectified axis, next to the other camera's
+  /// direction, for what makes an angle of less than asin(minimumSine) with the rows.
   EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, double minimumSine);
 
-  /// Calls visit(segment, u) for all that cross row v at a column u of [near, far) and go down the
-  /// rows (their tangent's v is positive) or up.
+  /// The piece that starts at a token; empty at the end of a chain.
+  const Piece& PieceOf(int token) const { return this->Pieces[token]; }
+
+  /// The token where the piece of `token`'s chain starts that crosses row v, at most `most` pieces
+  /// away; -1 when there is none.
+  int Follow(int token, float v, int most) const
+  {
+    const int forward = this->Pieces[token].tangentV > 0 ? 1 : -1;
+    for (; most >= 0 && token >= 0 && !this->Pieces[token].Empty(); --most)
+    {
+      const Piece& piece = this->Pieces[token];
+      if (piece.Crosses(v))
+      {
+        return token;
+      }
+      token += v < piece.low ? -forward : forward;
+    }
+    return -1;
+  }
+
+  /// What to look for in a row.
+  struct Search
+  {
+    float near, far;          ///< columns [near, far)
+    float tangentU, tangentV; ///< of the edge
+    float minimumCosine;      ///< of the angle to it
+  };
+
+  /// Calls visit(token, u, cosine) for all pieces that cross row v as the search wants and go down
+  /// the rows (their tangent's v is positive) or up.
   template <typename Visitor>
-  void VisitRow(double v, bool down, float near, float far, Visitor&& visit) const
+  void VisitRow(double v, bool down, const Search& search, Visitor&& visit) const
   {
     if (!(v >= this->FirstRow && v < this->FirstRow + this->Rows))
     {
@@ -48,26 +75,36 @@ public:
     const int truncated = static_cast<int>(v);
     const int row = truncated - (truncated > v) - static_cast<int>(this->FirstRow);
     const int line = (2 * row + down) * this->Columns;
-    const int begin = this->Begin[line + this->ColumnOf(near - this->Widest)];
-    const int end = this->Begin[line + this->ColumnOf(far + this->Widest) + 1];
+    const int begin = this->Begin[line + this->ColumnOf(search.near - this->Widest)];
+    const int end = this->Begin[line + this->ColumnOf(search.far + this->Widest) + 1];
     const cv::v_float32x4 at = cv::v_setall_f32(static_cast<float>(v));
-    const cv::v_float32x4 left = cv::v_setall_f32(near), right = cv::v_setall_f32(far);
-    float columns[4];
+    const cv::v_float32x4 near = cv::v_setall_f32(search.near), far = cv::v_setall_f32(search.far);
+    const cv::v_float32x4 tangentU = cv::v_setall_f32(search.tangentU);
+    const cv::v_float32x4 tangentV = cv::v_setall_f32(search.tangentV);
+    const cv::v_float32x4 least = cv::v_setall_f32(search.minimumCosine);
+    float columns[4], cosines[4];
     for (int first = begin & ~3; first < end; first += 4)
     {
-      const SpanBlock& spans = this->Spans[first / 4];
+      const PieceBlock& block = this->Blocks[first / 4];
       const cv::v_float32x4 u =
-        cv::v_load(spans.u) + (at - cv::v_load(spans.v)) * cv::v_load(spans.slope);
-      int crossing = cv::v_signmask(
-        (cv::v_load(spans.low) <= at) & (at < cv::v_load(spans.high)) & (u >= left) & (u < right));
-      crossing &= first < begin ? 15 << (begin - first) : 15;
-      crossing &= first + 4 > end ? 15 >> (first + 4 - end) : 15;
-      cv::v_store(columns, u);
-      for (int k = 0; crossing != 0; ++k, crossing >>= 1)
+        cv::v_load(block.u) + (at - cv::v_load(block.v)) * cv::v_load(block.slope);
+      const cv::v_float32x4 cosine =
+        cv::v_abs(tangentU * cv::v_load(block.tangentU) + tangentV * cv::v_load(block.tangentV));
+      int found = cv::v_signmask((cv::v_load(block.low) <= at) & (at < cv::v_load(block.high)) &
+        (u >= near) & (u < far) & (cosine >= least));
+      found &= first < begin ? 15 << (begin - first) : 15;
+      found &= first + 4 > end ? 15 >> (first + 4 - end) : 15;
+      if (found == 0)
       {
-        if (crossing & 1)
+        continue;
+      }
+      cv::v_store(columns, u);
+      cv::v_store(cosines, cosine);
+      for (int k = 0; found != 0; ++k, found >>= 1)
+      {
+        if (found & 1)
         {
-          visit(this->Segments[first + k], columns[k]);
+          visit(block.token[k], columns[k], cosines[k]);
         }
       }
     }
@@ -80,22 +117,26 @@ private:
     return static_cast<int>(std::min(std::max(column, 0.0f), this->Columns - 1.0f));
   }
 
-  // Where four segments lie, so that processors compare them at once.
-  struct SpanBlock
+  int FindBounds();
+  template <typename Visitor>
+  void VisitCells(Visitor&& visit) const;
+
+  // Four pieces, so that processors compare them at once.
+  struct PieceBlock
   {
-    float low[4], high[4], u[4], v[4], slope[4];
+    float low[4], high[4], u[4], v[4], slope[4], tangentU[4], tangentV[4];
+    int token[4];
   };
 
-  // By cell; in that of their start, in each row that they touch.
-  std::vector<Segment> Segments;
-  std::vector<SpanBlock> Spans;
+  std::vector<Piece> Pieces;      // per token
+  std::vector<PieceBlock> Blocks; // by cell; in that of their start, in each row that they touch
   std::vector<int> Begin; // of each cell and one past the last: rows twice (up and down) x columns
   int Rows = 0;
   int Columns = 0;
   float FirstRow = 0;
   float FirstColumn = 0;
   float CellWidth = 32; // pixels
-  float Widest = 0;     // difference between the columns of a segment's ends
+  float Widest = 0;     // difference between the columns of a piece's ends
 };
 
 }

@@ -2,6 +2,7 @@
 #include "SideColors.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace freespace
 {
@@ -36,10 +37,15 @@ Histograms ColorHistograms(const EdgeChains& edges)
   for (std::size_t k = 0; k < edges.tokens.size(); k += stride)
   {
     const EdgeToken& token = edges.tokens[k];
-    for (int i = 0; i < EdgeSideColors; ++i)
+    for (const EdgeSide& side : { token.bright, token.dark })
     {
-      ++histograms[i % 3][token.bright[i]];
-      ++histograms[i % 3][token.dark[i]];
+      for (const EdgeColor& color : side)
+      {
+        for (int channel = 0; channel < 3; ++channel)
+        {
+          ++histograms[channel][color[channel]];
+        }
+      }
     }
   }
   return histograms;
@@ -71,7 +77,7 @@ SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
   const std::array<double, 256> logColors = LogColors();
   const Histograms from = ColorHistograms(image);
   const Histograms to = &image == &reference ? from : ColorHistograms(reference);
-  std::uint8_t table[3][256];
+  std::uint32_t table[3][256]; // in its byte of a colour
   for (int channel = 0; channel < 3; ++channel)
   {
     const Statistics own = ChannelStatistics(from[channel], logColors);
@@ -80,7 +86,9 @@ SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
     for (int value = 0; value < 256; ++value)
     {
       const double color = wanted.mean + gain * (logColors[value] - own.mean);
-      table[channel][value] = static_cast<std::uint8_t>(std::clamp(color, 0.0, 255.0));
+      EdgeColor alone{};
+      alone[channel] = static_cast<std::uint8_t>(std::clamp(color, 0.0, 255.0));
+      std::memcpy(&table[channel][value], alone.data(), alone.size());
     }
   }
   this->Sides.reserve(image.tokens.size());
@@ -89,9 +97,10 @@ SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
     std::array<EdgeSide, 2> sides{ token.bright, token.dark };
     for (EdgeSide& side : sides)
     {
-      for (int i = 0; i < EdgeSideColors; ++i)
+      for (EdgeColor& color : side)
       {
-        side[i] = table[i % 3][side[i]];
+        const std::uint32_t all = table[0][color[0]] | table[1][color[1]] | table[2][color[2]];
+        std::memcpy(color.data(), &all, color.size());
       }
     }
     this->Sides.push_back(sides);

@@ -31,8 +31,9 @@ public:
     {
       const EdgeSide& own = this->Sides[token][side];
       const EdgeSide& others = other.Sides[otherToken][crossed ? 1 - side : side];
-      const unsigned sum = cv::v_reduce_sad(cv::v_load(own.data()), cv::v_load(others.data()));
-      difference[side] = static_cast<float>(sum) / EdgeSideColors;
+      const unsigned sum =
+        cv::v_reduce_sad(cv::v_load(own.front().data()), cv::v_load(others.front().data()));
+      difference[side] = static_cast<float>(sum) / (3 * own.size());
     }
     return difference;
   }

@@ -41,6 +41,24 @@ struct SearchImage
   std::size_t numberOfTokens;
 };
 
+// A token's, in another image.
+struct EpipolarLine
+{
+  EpipolarPair::Ray ray;
+  Eigen::Vector2f tangent; // of the edge, rectified
+  Eigen::Vector2d across;  // way of the rectified pixel when the token moves one pixel across
+  bool usable;             // in front of the camera, the edge not too near to parallel
+};
+
+// The hypotheses of a token are the states begin .. end - 1 of its chain.
+struct TokenStates
+{
+  int begin = 0, end = 0;
+};
+
+// Candidates that miss each other by so many tolerances may meet at a neighbour along the chain.
+constexpr double Promising = 2;
+
 class Matcher
 {
 public:
@@ -57,6 +75,7 @@ public:
       this->Images.emplace_back(reference, other, this->MinimumSine);
       this->Baseline = std::max(this->Baseline, this->Images.back().pair.Baseline);
     }
+    this->Lines.resize(this->Images.size());
     this->Agreeing.resize(this->Images.size());
     this->AgreeingCost.resize(this->Images.size());
   }
@@ -108,52 +127,114 @@ private:
     this->Prior = std::make_unique<DisparityPrior>(pixels, disparities);
   }
 
-  // The edges of one image on the epipolar line of a token.
-  void FindCandidates(int tokenIndex, int image)
+  // How the epipolar line of a token lies in each image.
+  void FindLines(int token)
   {
-    const EdgeToken& token = this->Edges.tokens[tokenIndex];
+    const EdgeToken& edge = this->Edges.tokens[token];
+    for (std::size_t i = 0; i < this->Images.size(); ++i)
+    {
+      const EpipolarPair& pair = this->Images[i].pair;
+      EpipolarLine& line = this->Lines[i];
+      line.ray = pair.FromReference(edge.position);
+      if (!(line.ray.scale > 0))
+      {
+        line.usable = false;
+        continue;
+      }
+      const Eigen::Matrix2d jacobian = pair.ReferenceJacobian(line.ray);
+      line.tangent = (jacobian * edge.tangent).normalized().cast<float>();
+      line.across = jacobian * edge.Normal();
+      line.usable = std::abs(line.tangent.y()) >= this->MinimumSine;
+    }
+  }
+
+  // The edges of one image on the epipolar line of a token.
+  void FindCandidates(int token, int image)
+  {
     const SearchImage& search = this->Images[image];
-    const EpipolarPair::Ray ray = search.pair.FromReference(token.position);
-    if (!(ray.scale > 0))
+    const EpipolarLine& line = this->Lines[image];
+    if (!line.usable)
     {
       return;
     }
-    const Eigen::Matrix2d jacobian = search.pair.ReferenceJacobian(ray);
-    const Eigen::Vector2d tangent = (jacobian * token.tangent).normalized();
-    if (std::abs(tangent.y()) < this->MinimumSine)
-    {
-      return;
-    }
-    const Eigen::Vector2d across = jacobian * token.Normal();
-    const double perColumn = ray.scale / search.pair.Baseline;
-    const float tangentU = static_cast<float>(tangent.x());
-    const float tangentV = static_cast<float>(tangent.y());
-    const float near = static_cast<float>(search.pair.Column(ray, this->Options.maximumDisparity));
-    const float far = static_cast<float>(search.pair.Column(ray, this->Options.minimumDisparity));
+    EpipolarIndex::Search wanted;
+    wanted.near = static_cast<float>(search.pair.Column(line.ray, this->Options.maximumDisparity));
+    wanted.far = static_cast<float>(search.pair.Column(line.ray, this->Options.minimumDisparity));
+    wanted.tangentU = line.tangent.x();
+    wanted.tangentV = line.tangent.y();
+    wanted.minimumCosine = static_cast<float>(this->MinimumCosine);
     // Along the epipolar line, both edges go from dark to bright or both from bright to dark. Not
     // so on the silhouette of something that is brighter than what it hides here and darker there.
-    const bool down = tangentV > 0;
-    bool crossed = false;
-    const auto visit = [&](const EpipolarIndex::Segment& segment, float u)
+    const bool down = line.tangent.y() > 0;
+    for (const bool crossed : { false, true })
     {
-      const float alignment = std::abs(tangentU * segment.tangentU + tangentV * segment.tangentV);
-      if (alignment < this->MinimumCosine)
+      search.index.VisitRow(line.ray.v, down != crossed, wanted,
+        [&](int other, float u, float cosine)
+        { this->AddCandidate(token, image, other, u, cosine, crossed); });
+    }
+  }
+
+  // The edges that continue the support of a neighbour's hypotheses.
+  void FollowCandidates(int token, const TokenStates& states)
+  {
+    for (int s = states.begin; s < states.end; ++s)
+    {
+      const EdgeHypothesis& state = this->States[s];
+      for (int k = state.begin; k < state.begin + state.count && state.promising; ++k)
       {
-        return;
+        this->Follow(token, this->Scratch[k]);
       }
-      const float cost =
-        this->CompareTokens(tokenIndex, search.colors, segment.token, crossed, alignment);
-      if (cost < 1)
-      {
-        const double slope = segment.tangentU / segment.tangentV;
-        this->Candidates.push_back({ search.pair.Disparity(ray, u),
-          perColumn * segment.uncertainty / std::abs(segment.tangentV),
-          perColumn * (across.x() - across.y() * slope), cost, image, segment.token });
-      }
-    };
-    search.index.VisitRow(ray.v, down, near, far, visit);
-    crossed = true;
-    search.index.VisitRow(ray.v, !down, near, far, visit);
+    }
+  }
+
+  // Takes the edge of a neighbour's candidate where it crosses the token's epipolar line.
+  void Follow(int token, const EdgeCandidate& candidate)
+  {
+    constexpr int most = 8; // pieces
+    const EpipolarLine& line = this->Lines[candidate.image];
+    const EpipolarIndex& index = this->Images[candidate.image].index;
+    const float row = static_cast<float>(line.ray.v);
+    const int other = line.usable ? index.Follow(candidate.token, row, most) : -1;
+    if (other < 0)
+    {
+      return;
+    }
+    const EpipolarIndex::Piece& piece = index.PieceOf(other);
+    const float column = piece.ColumnAt(row);
+    const double disparity = this->Images[candidate.image].pair.Disparity(line.ray, column);
+    const bool within =
+      disparity >= this->Options.minimumDisparity && disparity <= this->Options.maximumDisparity;
+    const float cosine =
+      std::abs(line.tangent.x() * piece.tangentU + line.tangent.y() * piece.tangentV);
+    if (within && cosine >= this->MinimumCosine && !this->IsCandidate(candidate.image, other))
+    {
+      const bool crossed = (line.tangent.y() > 0) != (piece.tangentV > 0);
+      this->AddCandidate(token, candidate.image, other, column, cosine, crossed);
+    }
+  }
+
+  bool IsCandidate(int image, int token) const
+  {
+    return std::any_of(this->Candidates.begin(), this->Candidates.end(),
+      [&](const EdgeCandidate& candidate)
+      { return candidate.token == token && candidate.image == image; });
+  }
+
+  // Takes a piece of another image's edge for a candidate when it looks like the token.
+  void AddCandidate(int token, int image, int other, float u, float cosine, bool crossed)
+  {
+    const SearchImage& search = this->Images[image];
+    const float cost = this->CompareTokens(token, search.colors, other, crossed, cosine);
+    if (cost < 1)
+    {
+      const EpipolarLine& line = this->Lines[image];
+      const EpipolarIndex::Piece& piece = search.index.PieceOf(other);
+      const double perColumn = line.ray.scale / search.pair.Baseline;
+      const double slope = piece.tangentU / piece.tangentV;
+      this->Candidates.push_back({ search.pair.Disparity(line.ray, u),
+        perColumn * piece.uncertainty / std::abs(piece.tangentV),
+        perColumn * (line.across.x() - line.across.y() * slope), cost, image, other });
+    }
   }
 
   // 0 for the same look, 1 or more for edges that cannot be the same. The better side decides,
@@ -179,12 +260,18 @@ private:
     constexpr float distance = 0.2f; // share of the distance in the cost
     std::fill(this->Agreeing.begin(), this->Agreeing.end(), nullptr);
     std::fill(this->AgreeingCost.begin(), this->AgreeingCost.end(), 1.0f);
+    EdgeHypothesis hypothesis;
     for (std::size_t i = begin; i < end; ++i)
     {
       const EdgeCandidate& other = this->Candidates[i];
       const double difference = std::abs(other.disparity - seed.disparity);
       const double most = this->Options.tolerance * std::max(seed.sigma, other.sigma);
-      if (other.image == seed.image || difference > most)
+      if (other.image == seed.image || difference > Promising * most)
+      {
+        continue;
+      }
+      hypothesis.promising = true;
+      if (difference > most)
       {
         continue;
       }
@@ -199,7 +286,6 @@ private:
     this->Agreeing[seed.image] = &seed;
     this->AgreeingCost[seed.image] = seed.cost;
 
-    EdgeHypothesis hypothesis;
     hypothesis.begin = static_cast<int>(this->Scratch.size());
     double weights = 0;
     for (std::size_t image = 0; image < this->Images.size(); ++image)
@@ -222,15 +308,49 @@ private:
     this->Found.push_back(hypothesis);
   }
 
-  // Appends the best explanations of a token and "no match" to the states of its chain.
-  void FindHypotheses(int token)
+  // The explanations of all tokens of a chain. What is matched continues over several tokens:
+  // every fourth searches its epipolar lines, those between follow what it found along the
+  // other images' edges.
+  void FindHypothesesAlongChain(int begin, int end)
   {
-    this->Candidates.clear();
-    this->Found.clear();
-    for (int image = 0; image < static_cast<int>(this->Images.size()); ++image)
+    const int stride = std::clamp(this->Options.minimumRun - 2, 1, 4);
+    this->TokenStatesOf.resize(end - begin);
+    const auto search = [&](int token)
     {
-      this->FindCandidates(token, image);
+      this->Candidates.clear();
+      this->FindLines(token);
+      for (int image = 0; image < static_cast<int>(this->Images.size()); ++image)
+      {
+        this->FindCandidates(token, image);
+      }
+      this->TokenStatesOf[token - begin] = this->FindHypotheses(token);
+    };
+    search(begin);
+    for (int last = begin; last + 1 < end;)
+    {
+      const int next = std::min(last + stride, end - 1);
+      search(next);
+      for (int token = last + 1; token < next; ++token)
+      {
+        this->Candidates.clear();
+        this->FindLines(token);
+        for (const int neighbor : { last, next })
+        {
+          this->FollowCandidates(token, this->TokenStatesOf[neighbor - begin]);
+        }
+        this->TokenStatesOf[token - begin] = this->FindHypotheses(token);
+      }
+      last = next;
     }
+  }
+
+  // Appends the best explanations of a token by its candidates and "no match" to the states of its
+  // chain.
+  TokenStates FindHypotheses(int token)
+  {
+    TokenStates states;
+    states.begin = static_cast<int>(this->States.size());
+    this->Found.clear();
     std::sort(this->Candidates.begin(), this->Candidates.end(),
       [](const EdgeCandidate& a, const EdgeCandidate& b)
       {
@@ -240,7 +360,7 @@ private:
     double widest = 0;
     for (const EdgeCandidate& candidate : this->Candidates)
     {
-      widest = std::max(widest, this->Options.tolerance * candidate.sigma);
+      widest = std::max(widest, Promising * this->Options.tolerance * candidate.sigma);
     }
     std::size_t begin = 0, end = 0;
     for (const EdgeCandidate& seed : this->Candidates)
@@ -259,6 +379,8 @@ private:
     this->ApplyPrior(token);
     this->KeepBest();
     this->States.emplace_back(); // no match
+    states.end = static_cast<int>(this->States.size());
+    return states;
   }
 
   // A repeated pattern matches itself at several disparities: the one that is usual around it wins.
@@ -331,23 +453,21 @@ private:
   {
     this->States.clear();
     this->Scratch.clear();
-    std::vector<int>& first = this->FirstState;
+    this->FindHypothesesAlongChain(begin, end);
     std::vector<double>& cost = this->StateCost;
     std::vector<int>& from = this->StateFrom;
-    first.clear();
-    cost.clear();
-    from.clear();
+    cost.resize(this->States.size());
+    from.resize(this->States.size());
+    TokenStates before;
     for (int token = begin; token < end; ++token)
     {
-      first.push_back(static_cast<int>(this->States.size()));
-      this->FindHypotheses(token);
-      const int states = static_cast<int>(this->States.size());
+      const TokenStates states = this->TokenStatesOf[token - begin];
       const double step = token > begin ? this->Step(token - 1, token) : 0;
-      for (int s = first.back(); s < states; ++s)
+      for (int s = states.begin; s < states.end; ++s)
       {
         double best = token > begin ? std::numeric_limits<double>::infinity() : 0;
         int bestFrom = -1;
-        for (int p = token > begin ? first[token - begin - 1] : s; p < first.back(); ++p)
+        for (int p = before.begin; p < before.end; ++p)
         {
           if (cost[p] >= best) // no transition makes it less
           {
@@ -360,17 +480,18 @@ private:
             bestFrom = p;
           }
         }
-        cost.push_back(best + this->States[s].score);
-        from.push_back(bestFrom);
+        cost[s] = best + this->States[s].score;
+        from[s] = bestFrom;
       }
+      before = states;
     }
-    int state =
-      static_cast<int>(std::min_element(cost.begin() + first.back(), cost.end()) - cost.begin());
+    int state = static_cast<int>(
+      std::min_element(cost.begin() + before.begin, cost.begin() + before.end) - cost.begin());
     int matched = 0, ambiguous = 0;
     for (int token = end - 1; token >= begin; --token)
     {
       matched += this->States[state].Confirmed();
-      ambiguous += this->HasRival(state, first[token - begin]);
+      ambiguous += this->HasRival(state, this->TokenStatesOf[token - begin].begin);
       this->Choose(token, this->States[state]);
       state = from[state];
     }
@@ -453,6 +574,7 @@ private:
   std::unique_ptr<DisparityPrior> Prior; // none in the first round
 
   // One token's.
+  std::vector<EpipolarLine> Lines; // per image
   std::vector<EdgeCandidate> Candidates;
   std::vector<EdgeHypothesis> Found;
   std::vector<std::pair<double, int>> Order;  // of what was found, by score
@@ -461,7 +583,7 @@ private:
   // One chain's: the hypotheses of its tokens, each list ending in "no match", and their support.
   std::vector<EdgeHypothesis> States;
   std::vector<EdgeCandidate> Scratch;
-  std::vector<int> FirstState;   // of each token
+  std::vector<TokenStates> TokenStatesOf;
   std::vector<double> StateCost; // of the best way to each state
   std::vector<int> StateFrom;    // and the state before it on that way
   // The result: one hypothesis per token, and their support.

@@ -81,7 +81,7 @@ TEST(EdgeTokens, CircleIsOneClosedChain)
     const EdgeToken& next = edges.tokens[(i + 1) % edges.tokens.size()];
     EXPECT_LT((next.position - token.position).norm(), 2);
     EXPECT_GT(token.tangent.dot(next.position - token.position), 0);
-    EXPECT_GT(token.bright[0], token.dark[0]);
+    EXPECT_GT(token.bright[0][0], token.dark[0][0]);
   }
 }
 
@@ -100,12 +100,12 @@ TEST(EdgeTokens, ColorsOfBothSides)
   {
     for (int sample = 1; sample < 4; ++sample) // the nearest one is blurred with the other side
     {
-      EXPECT_EQ(token.bright[3 * sample], 20);
-      EXPECT_EQ(token.bright[3 * sample + 1], 180);
-      EXPECT_EQ(token.bright[3 * sample + 2], 90);
-      EXPECT_EQ(token.dark[3 * sample], 90);
-      EXPECT_EQ(token.dark[3 * sample + 1], 10);
-      EXPECT_EQ(token.dark[3 * sample + 2], 40);
+      EXPECT_EQ(token.bright[sample][0], 20);
+      EXPECT_EQ(token.bright[sample][1], 180);
+      EXPECT_EQ(token.bright[sample][2], 90);
+      EXPECT_EQ(token.dark[sample][0], 90);
+      EXPECT_EQ(token.dark[sample][1], 10);
+      EXPECT_EQ(token.dark[sample][2], 40);
     }
   }
 }

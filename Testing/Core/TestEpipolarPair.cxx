@@ -2,12 +2,16 @@
 #include "EpipolarPair.h"
 
 #include "CommonVolume.h"
+#include "EpipolarIndex.h"
 #include "Error.h"
 #include "SyntheticImages.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <vector>
 
 using namespace freespace;
 
@@ -122,4 +126,103 @@ TEST(CommonVolume, CamerasThatLookApartHaveNone)
   EXPECT_TRUE(CommonRange(
     ahead, LookAt({ -0.1, 0, 0 }, { 0, 0, 1 }), LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 1e4, 1e5 })
                 .Empty()); // too near
+}
+
+namespace
+{
+
+// Chains that wander over the image.
+EdgeChains RandomChains(RandomCameras& random, int count)
+{
+  EdgeChains edges;
+  for (int chain = 0; chain < count; ++chain)
+  {
+    Eigen::Vector2d position(random.Uniform(50, 550), random.Uniform(50, 350));
+    double angle = random.Uniform(-3, 3);
+    for (int k = 0; k < 40; ++k)
+    {
+      EdgeToken token{};
+      token.contrast = 10;
+      token.position = position;
+      token.tangent = { std::cos(angle), std::sin(angle) };
+      edges.tokens.push_back(token);
+      position += token.tangent;
+      angle += random.Uniform(-0.1, 0.1);
+    }
+    edges.begin.push_back(static_cast<int>(edges.tokens.size()));
+  }
+  return edges;
+}
+
+}
+
+TEST(EpipolarIndex, FindsTheSameAsLookingAtEveryPiece)
+{
+  RandomCameras random(7);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const EdgeChains edges = RandomChains(random, 100);
+  const EpipolarIndex index(pair, edges, 0.1);
+  int found = 0;
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const EpipolarPair::Ray ray =
+      pair.FromReference({ random.Uniform(0, 600), random.Uniform(0, 400) });
+    const float row = static_cast<float>(ray.v);
+    EpipolarIndex::Search search;
+    search.near = static_cast<float>(ray.u - random.Uniform(50, 400));
+    search.far = static_cast<float>(ray.u + random.Uniform(50, 400));
+    search.tangentU = 0.6f;
+    search.tangentV = 0.8f;
+    search.minimumCosine = 0.7f;
+    for (const bool down : { false, true })
+    {
+      std::vector<int> expected, visited;
+      for (int token = 0; token < static_cast<int>(edges.tokens.size()); ++token)
+      {
+        const EpipolarIndex::Piece& piece = index.PieceOf(token);
+        const float u = piece.ColumnAt(row);
+        const float cosine = std::abs(0.6f * piece.tangentU + 0.8f * piece.tangentV);
+        if (piece.Crosses(row) && (piece.tangentV > 0) == down && u >= search.near &&
+          u < search.far && cosine >= search.minimumCosine)
+        {
+          expected.push_back(token);
+        }
+      }
+      index.VisitRow(row, down, search, [&](int token, float, float) { visited.push_back(token); });
+      std::sort(visited.begin(), visited.end());
+      EXPECT_EQ(visited, expected);
+      found += static_cast<int>(expected.size());
+    }
+  }
+  EXPECT_GT(found, 500);
+}
+
+TEST(EpipolarIndex, FollowsAChainToARowAndNotBeyondItsEnd)
+{
+  RandomCameras random(8);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const EdgeChains edges = RandomChains(random, 50);
+  const EpipolarIndex index(pair, edges, 0.1);
+  int followed = 0;
+  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  {
+    const int begin = edges.begin[chain], end = edges.begin[chain + 1];
+    EXPECT_TRUE(index.PieceOf(end - 1).Empty());
+    for (int token = begin; token < end; ++token)
+    {
+      const float row =
+        index.PieceOf(token).v + static_cast<float>(random.Uniform(-1, 1)) * (end - begin);
+      const int reached = index.Follow(token, row, 2 * (end - begin));
+      if (reached >= 0)
+      {
+        EXPECT_GE(reached, begin);
+        EXPECT_LT(reached, end - 1);
+        EXPECT_TRUE(index.PieceOf(reached).Crosses(row));
+        ++followed;
+      }
+    }
+  }
+  EXPECT_GT(followed, 100);
 }
