@@ -4,6 +4,7 @@
 #include "AlgorithmProgress.h"
 #include "BisectionContour.h"
 #include "FreespaceUnion.h"
+#include "ObservedTriangles.h"
 #include "SMPParallelFor.h"
 #include "vtkFreespaceUnion.h"
 
@@ -24,7 +25,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <vector>
 
 vtkStandardNewMacro(vtkBisectionContourFilter);
 
@@ -139,47 +139,6 @@ void SetTriangles(vtkPolyData* output, vtkTypeInt32Array* corners)
   output->SetPolys(cells);
 }
 
-/// Drops all triangles but those of feature triangles, and the points that only they had.
-void KeepObserved(vtkPolyData* surface)
-{
-  auto* kinds = vtkUnsignedCharArray::SafeDownCast(surface->GetCellData()->GetArray("Kind"));
-  auto* views = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("View"));
-  vtkNew<vtkPoints> points;
-  points->SetDataType(surface->GetPoints()->GetDataType());
-  vtkNew<vtkCellArray> triangles;
-  vtkNew<vtkIntArray> view;
-  view->SetName("View");
-  vtkNew<vtkUnsignedCharArray> kind;
-  kind->SetName("Kind");
-  std::vector<vtkIdType> newId(surface->GetNumberOfPoints(), -1);
-  vtkCellArray* all = surface->GetPolys();
-  for (vtkIdType t = 0; t < all->GetNumberOfCells(); ++t)
-  {
-    if (kinds->GetValue(t) != static_cast<unsigned char>(freespace::SurfaceKind::Feature))
-    {
-      continue;
-    }
-    vtkIdType size;
-    const vtkIdType* corners;
-    vtkIdType ids[3];
-    all->GetCellAtId(t, size, corners);
-    for (int i = 0; i < 3; ++i)
-    {
-      vtkIdType& id = newId[corners[i]];
-      id = id < 0 ? points->InsertNextPoint(surface->GetPoint(corners[i])) : id;
-      ids[i] = id;
-    }
-    triangles->InsertNextCell(3, ids);
-    view->InsertNextValue(views->GetValue(t));
-    kind->InsertNextValue(kinds->GetValue(t));
-  }
-  surface->Initialize();
-  surface->SetPoints(points);
-  surface->SetPolys(triangles);
-  surface->GetCellData()->AddArray(view);
-  surface->GetCellData()->AddArray(kind);
-}
-
 }
 
 vtkBisectionContourFilter::vtkBisectionContourFilter()
@@ -288,7 +247,7 @@ int vtkBisectionContourFilter::RequestData(
     SetTriangles(output, corners);
     if (this->ObservedOnly && direct)
     {
-      KeepObserved(output);
+      freespace::KeepObserved(output);
     }
   }
   catch (...)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../Core/RandomMaps.h"
 #include "ViewBlocks.h"
+#include "vtkAppendPiecesFilter.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFreespaceUnion.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkClipPolyData.h>
 #include <vtkCommand.h>
@@ -25,6 +27,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
+
+#include <cstring>
 
 using namespace freespace;
 
@@ -264,23 +268,78 @@ TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
   EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), seen);
 }
 
-TEST(vtkBisectionContourFilter, PiecesTogetherAreTheWhole)
+TEST(vtkAppendPiecesFilter, PiecesTogetherAreTheWhole)
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
   contour->SetImplicitFunction(phi);
   contour->SetCells(100);
-  contour->Update();
-  const vtkIdType whole = contour->GetOutput()->GetNumberOfCells();
-  vtkIdType sum = 0;
-  for (int piece = 0; piece < 3; ++piece)
+  for (const bool observed : { false, true })
   {
-    contour->UpdatePiece(piece, 3, 0);
-    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), whole / 10);
-    sum += contour->GetOutput()->GetNumberOfCells();
+    contour->SetSharpEdges(observed);
+    contour->SetObservedOnly(observed);
+    contour->UpdateWholeExtent();
+    vtkNew<vtkPolyData> whole;
+    whole->ShallowCopy(contour->GetOutput());
+    contour->SetObservedOnly(false);
+    vtkNew<vtkAppendPiecesFilter> append;
+    append->SetObservedOnly(observed);
+    for (int piece = 0; piece < 3; ++piece)
+    {
+      contour->UpdatePiece(piece, 3, 0);
+      vtkNew<vtkPolyData> part;
+      part->ShallowCopy(contour->GetOutput());
+      EXPECT_GT(part->GetNumberOfCells(), whole->GetNumberOfCells() / 10);
+      append->AddInputData(part);
+    }
+    append->Update();
+    vtkPolyData* joined = append->GetOutput();
+    const auto expectSame = [](vtkDataArray* a, vtkDataArray* b)
+    {
+      ASSERT_TRUE(a && b);
+      ASSERT_EQ(a->GetDataType(), b->GetDataType());
+      ASSERT_EQ(a->GetNumberOfValues(), b->GetNumberOfValues());
+      const std::size_t bytes = a->GetNumberOfValues() * a->GetDataTypeSize();
+      EXPECT_EQ(std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), bytes), 0);
+    };
+    expectSame(joined->GetPoints()->GetData(), whole->GetPoints()->GetData());
+    vtkNew<vtkCellArray> triangles; // of one type of integers
+    triangles->DeepCopy(whole->GetPolys());
+    triangles->ConvertTo64BitStorage();
+    joined->GetPolys()->ConvertTo64BitStorage();
+    expectSame(joined->GetPolys()->GetConnectivityArray(), triangles->GetConnectivityArray());
+    expectSame(joined->GetCellData()->GetArray("View"), whole->GetCellData()->GetArray("View"));
+    expectSame(joined->GetCellData()->GetArray("Kind"), whole->GetCellData()->GetArray("Kind"));
+    EXPECT_FALSE(joined->GetPointGhostArray());
   }
-  EXPECT_EQ(sum, whole);
+}
+
+TEST(vtkAppendPiecesFilter, TellsWhatIsWrong)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkAppendPiecesFilter> append;
+  append->AddInputData(empty);
+  append->Update();
+  EXPECT_EQ(append->GetOutput()->GetNumberOfPoints(), 0);
+  vtkNew<vtkPolyData> square;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  const vtkIdType corners[4] = { 0, 1, 2, 3 };
+  for (int i = 0; i < 4; ++i)
+  {
+    points->InsertNextPoint(i == 1 || i == 2, i / 2, 0);
+  }
+  cells->InsertNextCell(4, corners);
+  square->SetPoints(points);
+  square->SetPolys(cells);
+  append->AddInputData(square);
+  vtkNew<Errors> errors;
+  append->AddObserver(vtkCommand::ErrorEvent, errors);
+  append->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  append->Update();
+  EXPECT_GE(errors->Count, 1);
+  EXPECT_EQ(append->GetOutput()->GetNumberOfPoints(), 0);
 }
 
 TEST(vtkBisectionContourFilter, ContoursAnyFunction)
