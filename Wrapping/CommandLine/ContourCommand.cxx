@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "Ranks.h"
 #include "Session.h"
 #include "Stages.h"
 
@@ -22,6 +23,33 @@ struct Settings
   ContourStage contour;
 };
 
+// Each of the processes that mpiexec started makes a piece, the first one joins and writes them. All
+// read the maps for themselves.
+void Contour(Session& session, const Settings& settings)
+{
+  Ranks ranks;
+  vtkSmartPointer<vtkPolyData> piece;
+  ranks.Together(
+    [&]()
+    {
+      if (ranks.Rank() == 0)
+      {
+        CheckSurfaceName(settings.output);
+      }
+      const auto maps = ReadMaps(session, settings.maps);
+      piece = settings.contour.RunPiece(session, maps, ranks.Rank(), ranks.Count());
+    });
+  const auto pieces = ranks.Gather(piece);
+  ranks.Together(
+    [&]()
+    {
+      if (ranks.Rank() == 0)
+      {
+        WriteSurface(session, settings.contour.Join(session, pieces), settings.output);
+      }
+    });
+}
+
 }
 
 void AddContourCommand(CLI::App& program, Session& session)
@@ -36,14 +64,10 @@ void AddContourCommand(CLI::App& program, Session& session)
     ->required()
     ->type_name("MESH.ply");
   settings->contour.AddOptions(*command);
-  command->footer("Example:\n  freespace contour maps.vtm -o mesh.ply --cells 512");
+  command->footer("Example:\n  freespace contour maps.vtm -o mesh.ply --cells 512\n"
+                  "  mpiexec -n 4 freespace contour maps.vtm -o mesh.ply --cells 2048");
   command->callback(session.Later(
-    [settings, &session]()
-    {
-      CheckSurfaceName(settings->output);
-      const auto maps = ReadMaps(session, settings->maps);
-      WriteSurface(session, settings->contour.Run(session, maps), settings->output);
-    }));
+    [settings, &session]() { Contour(session, *settings); }, Session::Sharing::AllProcesses));
 }
 
 }

@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "ErrorCollector.h"
 #include "ProgressLine.h"
+#include "Ranks.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -66,18 +67,27 @@ void Session::Begin()
   std::signal(SIGTERM, OnInterrupt);
 }
 
-std::function<void()> Session::Later(std::function<void()> action)
+std::function<void()> Session::Later(std::function<void()> action, Sharing sharing)
 {
-  return [this, action]() { this->Action = action; };
+  return [this, action, sharing]()
+  {
+    this->Action = action;
+    this->ActionSharing = sharing;
+  };
 }
 
 void Session::Do()
 {
+  if (LaunchedRank() > 0 && this->ActionSharing == Sharing::FirstProcess)
+  {
+    return;
+  }
+  this->Quiet = this->Quiet || LaunchedRank() > 0;
   this->Begin();
   this->Action();
 }
 
-void Session::Run(vtkAlgorithm* algorithm, const std::string& stage)
+void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
 {
   Collector()->Clear();
   ProgressLine line(stage, this->Quiet);
@@ -85,7 +95,14 @@ void Session::Run(vtkAlgorithm* algorithm, const std::string& stage)
   onProgress->SetCallback(OnProgress);
   onProgress->SetClientData(&line);
   const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, onProgress);
-  algorithm->Update();
+  if (pieces > 1)
+  {
+    algorithm->UpdatePiece(piece, pieces, 0);
+  }
+  else
+  {
+    algorithm->Update();
+  }
   algorithm->RemoveObserver(tag);
   this->ThrowIfFailed();
   line.Finish();

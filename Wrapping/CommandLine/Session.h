@@ -21,15 +21,24 @@ public:
   /// Adds the shared options to the program.
   void AddOptions(CLI::App& program);
 
+  /// Which processes do a command's work when mpiexec started several.
+  enum class Sharing
+  {
+    FirstProcess,
+    AllProcesses ///< they share it out, see Ranks
+  };
+
   /// What a command does, to be done once the command line and the config file are read whole: CLI11
   /// calls back for a section of the config file before it has read the rest.
-  std::function<void()> Later(std::function<void()> action);
+  std::function<void()> Later(
+    std::function<void()> action, Sharing sharing = Sharing::FirstProcess);
 
   /// Does what the command was to do.
   void Do();
 
-  /// Updates the algorithm under a stage's name. Throws Error with what the first error said.
-  void Run(vtkAlgorithm* algorithm, const std::string& stage);
+  /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
+  /// first error said.
+  void Run(vtkAlgorithm* algorithm, const std::string& stage, int piece = 0, int pieces = 1);
 
   /// Runs a writer. Throws Error like Run.
   void Write(vtkWriter* writer);
@@ -45,6 +54,7 @@ private:
 
   bool Quiet = false;
   int Threads = 0;
+  Sharing ActionSharing = Sharing::FirstProcess;
   std::function<void()> Action;
 };
 

@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "Session.h"
 
+#include <vtkAppendPiecesFilter.h>
 #include <vtkBisectionContourFilter.h>
 #include <vtkDelaunayDisparityFilter.h>
 #include <vtkEdgeStereoReader.h>
@@ -204,6 +205,12 @@ void ContourStage::AddOptions(CLI::App& command)
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
 {
+  return this->Join(session, { this->RunPiece(session, maps, 0, 1) });
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
+  Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const
+{
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
   phi->SetHullMargin(this->HullMargin);
@@ -212,9 +219,26 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
   contour->SetImplicitFunction(phi);
   contour->SetCells(this->Cells);
   contour->SetSharpEdges(!this->NotSharp);
-  contour->SetObservedOnly(this->Observed);
-  session.Run(contour, "contour");
-  vtkSmartPointer<vtkPolyData> surface = contour->GetOutput();
+  contour->SetObservedOnly(this->Observed && pieces == 1);
+  session.Run(contour, "contour", piece, pieces);
+  return contour->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::Join(
+  Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+{
+  vtkSmartPointer<vtkPolyData> surface = pieces.front();
+  if (pieces.size() > 1)
+  {
+    vtkNew<vtkAppendPiecesFilter> append;
+    append->SetObservedOnly(this->Observed);
+    for (vtkPolyData* piece : pieces)
+    {
+      append->AddInputData(piece);
+    }
+    session.Run(append, "join");
+    surface = append->GetOutput();
+  }
   session.Tell("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
     std::to_string(surface->GetNumberOfCells()) + " triangles");
   return surface;

@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <string>
+#include <vector>
 
 class vtkMultiBlockDataSet;
 class vtkPolyData;
@@ -57,6 +58,12 @@ class ContourStage
 public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
+
+  /// One of the pieces that Join makes the same surface of.
+  vtkSmartPointer<vtkPolyData> RunPiece(
+    Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const;
+  vtkSmartPointer<vtkPolyData> Join(
+    Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
 private:
   int Cells = 256;

@@ -3,6 +3,7 @@
 #include "AtomicOutput.h"
 #include "Commands.h"
 #include "Error.h"
+#include "Ranks.h"
 #include "Session.h"
 
 #include <algorithm>
@@ -134,7 +135,7 @@ int Run(int argc, char* argv[])
     std::cerr << "freespace: " << Fault(program, error) << "\n";
     return misused;
   }
-  if (!configToSave.empty())
+  if (!configToSave.empty() && freespace::LaunchedRank() == 0)
   {
     SaveConfig(program, configToSave);
   }
@@ -146,6 +147,12 @@ int Run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  // Of the processes that mpiexec started only the first one prints.
+  if (freespace::LaunchedRank() > 0)
+  {
+    std::cout.rdbuf(nullptr);
+    std::cerr.rdbuf(nullptr);
+  }
   try
   {
     return Run(argc, argv);
