@@ -3,6 +3,7 @@
 
 #include "AlgorithmProgress.h"
 #include "BisectionContour.h"
+#include "ContourEstimate.h"
 #include "FreespaceUnion.h"
 #include "ObservedTriangles.h"
 #include "SMPParallelFor.h"
@@ -25,6 +26,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <memory>
 
 vtkStandardNewMacro(vtkBisectionContourFilter);
 
@@ -175,77 +177,119 @@ int vtkBisectionContourFilter::RequestInformation(
   return 1;
 }
 
+/// What is to be contoured, and how.
+struct vtkBisectionContourFilter::Task
+{
+  std::shared_ptr<const freespace::FreespaceUnion> core;
+  std::unique_ptr<FunctionField> function;
+  bool isDirect = false; ///< the union itself; a transformed one is contoured like any function
+  Eigen::AlignedBox3d bounds;
+  freespace::ContourOptions options;
+
+  const freespace::ContourField& Field() const
+  {
+    return this->isDirect ? static_cast<const freespace::ContourField&>(*this->core)
+                          : *this->function;
+  }
+};
+
+/// False, with an error, when there is nothing to contour.
+bool vtkBisectionContourFilter::Prepare(Task& task)
+{
+  if (!this->ImplicitFunction)
+  {
+    vtkErrorMacro("There is no implicit function to contour.");
+    return false;
+  }
+  task.options.cells = this->Cells;
+  task.options.tolerance = this->Tolerance;
+  task.options.clearance = this->Clearance;
+  task.options.exact = this->ExactCrossings;
+  task.options.sharp = this->SharpEdges;
+  task.options.sharpAngle = this->SharpAngle;
+  task.options.memoryLimit = this->MemoryLimit;
+  task.bounds = MakeBox(this->Bounds);
+  task.function = std::make_unique<FunctionField>(this->ImplicitFunction);
+  auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
+  if (freespaceUnion)
+  {
+    task.core = freespaceUnion->GetCore();
+    if (!task.core)
+    {
+      vtkErrorMacro("The free space union has no valid disparity maps.");
+      return false;
+    }
+    if (IsMereHull(*task.core))
+    {
+      vtkErrorMacro("None of the " << task.core->NumberOfViews()
+                                   << " maps of the free space union has a usable triangle: "
+                                      "features must be triangulated first.");
+      return false;
+    }
+  }
+  task.isDirect = task.core && !freespaceUnion->GetTransform();
+  if (task.bounds.isEmpty() && !task.isDirect)
+  {
+    vtkErrorMacro("The function does not tell its bounds: set Bounds.");
+    return false;
+  }
+  if (task.bounds.isEmpty())
+  {
+    task.bounds = task.core->Hull().Bounds();
+  }
+  return true;
+}
+
+double vtkBisectionContourFilter::EstimateMemory()
+{
+  Task task;
+  if (!this->Prepare(task))
+  {
+    return 0.0;
+  }
+  try
+  {
+    return freespace::EstimateContour(task.Field(), task.bounds, task.options).megabytes;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0.0;
+  }
+}
+
 int vtkBisectionContourFilter::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkInformation* information = outputVector->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(information);
-  if (!this->ImplicitFunction)
+  Task task;
+  if (!this->Prepare(task))
   {
-    vtkErrorMacro("There is no implicit function to contour.");
     return 0;
   }
-  freespace::ContourOptions options;
-  options.cells = this->Cells;
-  options.tolerance = this->Tolerance;
-  options.clearance = this->Clearance;
-  options.exact = this->ExactCrossings;
-  options.sharp = this->SharpEdges;
-  options.sharpAngle = this->SharpAngle;
   if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
   {
-    options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-    options.pieces = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
-  }
-  Eigen::AlignedBox3d bounds = MakeBox(this->Bounds);
-  auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
-  std::shared_ptr<const freespace::FreespaceUnion> core;
-  if (freespaceUnion)
-  {
-    core = freespaceUnion->GetCore();
-    if (!core)
-    {
-      vtkErrorMacro("The free space union has no valid disparity maps.");
-      return 0;
-    }
-    if (IsMereHull(*core))
-    {
-      vtkErrorMacro("None of the " << core->NumberOfViews()
-                                   << " maps of the free space union has a usable triangle: "
-                                      "features must be triangulated first.");
-      return 0;
-    }
-  }
-  // A transformed union is contoured like any other function.
-  const bool direct = core && !freespaceUnion->GetTransform();
-  if (bounds.isEmpty() && direct)
-  {
-    bounds = core->Hull().Bounds();
-  }
-  else if (bounds.isEmpty())
-  {
-    vtkErrorMacro("The function does not tell its bounds: set Bounds.");
-    return 0;
+    task.options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+    task.options.pieces =
+      information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
   }
   try
   {
-    const FunctionField function(this->ImplicitFunction);
-    const freespace::ContourField& field =
-      direct ? static_cast<const freespace::ContourField&>(*core) : function;
-    const bool isSingle = freespace::SinglePrecisionSuffices(bounds, options);
+    const bool isSingle = freespace::SinglePrecisionSuffices(task.bounds, task.options);
     vtkNew<vtkTypeInt32Array> corners;
     const auto allocate = [&](const freespace::ContourSize& size)
     {
-      if (options.pieces > 1)
+      if (task.options.pieces > 1)
       {
         MarkForeignPoints(output, size);
       }
-      return AllocateOutput(output, corners, size, isSingle, direct);
+      return AllocateOutput(output, corners, size, isSingle, task.isDirect);
     };
-    freespace::BisectionContour(field, bounds, options, allocate,
+    freespace::BisectionContour(task.Field(), task.bounds, task.options, allocate,
       freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
     SetTriangles(output, corners);
-    if (this->ObservedOnly && direct)
+    if (this->ObservedOnly && task.isDirect)
     {
       freespace::KeepObserved(output);
     }
@@ -274,4 +318,5 @@ void vtkBisectionContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SharpEdges: " << this->SharpEdges << "\n";
   os << indent << "SharpAngle: " << this->SharpAngle << "\n";
   os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

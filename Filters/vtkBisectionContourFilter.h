@@ -127,6 +127,22 @@ public:
   vtkBooleanMacro(ObservedOnly, bool);
   ///@}
 
+  ///@{
+  /**
+   * How much memory the output (or the piece of it that is asked for) and its making may take, in MiB;
+   * 0 is no limit. What would take more is an error that names both, told before the work where the
+   * function is a vtkFreespaceUnion, and otherwise as soon as it is known. Default 0.
+   */
+  vtkSetMacro(MemoryLimit, double);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
+  /**
+   * About how much memory the whole output and its making will take, in MiB: found in a fraction of the
+   * time. 0 when the function cannot tell, which only a vtkFreespaceUnion can.
+   */
+  double EstimateMemory();
+
   /**
    * Covers the function.
    */
@@ -148,8 +164,12 @@ protected:
   bool SharpEdges = false;
   double SharpAngle = 60.0;
   bool ObservedOnly = false;
+  double MemoryLimit = 0.0;
 
 private:
+  struct Task;
+  bool Prepare(Task& task);
+
   vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;
   void operator=(const vtkBisectionContourFilter&) = delete;
 };

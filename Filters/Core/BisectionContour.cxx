@@ -2,6 +2,7 @@
 #include "BisectionContour.h"
 
 #include "ContourBlock.h"
+#include "ContourEstimate.h"
 #include "CubeCases.h"
 #include "Error.h"
 #include "SharpFeature.h"
@@ -46,6 +47,11 @@ void ContourOptions::Check() const
     throw Error("The sharp angle is " + std::to_string(this->sharpAngle) +
       " degrees, it must be between 0 and 180.");
   }
+  if (!(this->memoryLimit >= 0))
+  {
+    throw Error(
+      "The memory limit is " + std::to_string(this->memoryLimit) + " MiB, it must be 0 or more.");
+  }
   if (this->pieces < 1 || this->piece < 0 || this->piece >= this->pieces)
   {
     throw Error("There is no piece " + std::to_string(this->piece) + " of " +
@@ -65,6 +71,9 @@ namespace
 
 /// Cells along the side of a region: what one thread does at a time.
 constexpr int RegionSize = 4 * ContourBlock::Size;
+
+/// Up to so many cells, regions are few enough to be found without an estimate before.
+constexpr int QuicklyDescended = 1536;
 
 /// So much is done between two looks at the progress.
 constexpr std::size_t RegionsAtATime = 16;
@@ -146,6 +155,7 @@ public:
     : Field(field, bounds)
     , Lattice(bounds, options.cells)
     , Options(options)
+    , IsSingle(SinglePrecisionSuffices(bounds, options))
     , Crossing{ options.tolerance, options.clearance, options.exact, options.sharp }
   {
   }
@@ -153,6 +163,10 @@ public:
   void Run(const AllocateContour& allocate, const Progress& progress,
     const ParallelFor& parallelFor, bool isThreadSafe)
   {
+    if (this->Options.cells > QuicklyDescended)
+    {
+      this->CheckEstimate(progress);
+    }
     this->FindRegions(progress.Part(0.0, 0.05));
     this->FindBlocks(
       progress.Part(0.05, 0.8), isThreadSafe ? parallelFor : SerialFor, isThreadSafe);
@@ -163,6 +177,17 @@ public:
   }
 
 private:
+  /// Refuses surfaces that are too large, before the work.
+  void CheckEstimate(const Progress& progress) const
+  {
+    if (this->Options.memoryLimit > 0)
+    {
+      const ContourEstimate estimate =
+        EstimateContour(this->Field.Inner(), this->Field.Box(), this->Options, progress);
+      CheckMemoryLimit(estimate.triangles / this->Options.pieces, this->Options, this->IsSingle);
+    }
+  }
+
   /// The regions of this piece, and those next to them, whose vertices its triangles need.
   void FindRegions(const Progress& progress)
   {
@@ -181,6 +206,13 @@ private:
       [&](const CellRange& range, FieldScope& scope) {
         this->Regions.push_back({ range, std::move(scope), true, 0, {} });
       });
+    // Many regions are few triangles, unless the surface is rough.
+    const double worst = 5.0 * RegionSize * RegionSize * RegionSize * this->Regions.size();
+    if (this->Options.cells <= QuicklyDescended &&
+      ContourMegabytes(worst, this->Options, this->IsSingle) > this->Options.memoryLimit)
+    {
+      this->CheckEstimate(progress);
+    }
     // Layer by layer along the longest side, so that what was written can soon be let go.
     const auto& cells = this->Lattice.cells;
     const auto height = [axis = std::max_element(cells.begin(), cells.end()) - cells.begin()](
@@ -243,6 +275,7 @@ private:
   {
     const std::size_t portion = isThreadSafe ? RegionsAtATime : 1;
     const std::size_t count = this->Regions.size();
+    double found = 0.0; // triangles: two to a vertex
     for (std::size_t done = 0; done < count; done += portion)
     {
       const double fraction = static_cast<double>(done) / count;
@@ -256,6 +289,14 @@ private:
             this->RunRegion(this->Regions[i], isThreadSafe ? Progress() : progress, fraction);
           }
         });
+      for (std::size_t i = done; i < std::min(done + portion, count); ++i)
+      {
+        for (const ContourBlock& block : this->Regions[i].blocks)
+        {
+          found += 2.0 * block.keys.size();
+        }
+      }
+      CheckMemoryLimit(found, this->Options, this->IsSingle);
     }
     progress(1.0);
   }
@@ -461,8 +502,8 @@ private:
         }
         if (CrossingGrid::Has(point))
         {
-          grid.crossings.push_back({ other->block->Position(this->Lattice, v),
-            other->block->normals[v].cast<double>() });
+          grid.crossings.push_back(
+            { other->block->Position(this->Lattice, v), other->block->normals[v].cast<double>() });
           grid.at[CrossingGrid::Place(point, other->block->keys[v] % 3)] =
             static_cast<std::int32_t>(grid.crossings.size());
         }
@@ -812,6 +853,7 @@ private:
   const BoundedField Field;
   const ContourLattice Lattice;
   const ContourOptions Options;
+  const bool IsSingle;
   const CrossingOptions Crossing;
   /// Regions of one layer: where they, and their blocks, begin.
   struct Layer

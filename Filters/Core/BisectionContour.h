@@ -26,6 +26,7 @@ struct ContourOptions
     60;           ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
   int piece = 0;  ///< which of the pieces to make; in [0, pieces)
   int pieces = 1; ///< that together are the surface; >= 1
+  double memoryLimit = 0; ///< for the piece and for making it, MiB; 0: none
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -74,7 +75,9 @@ using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 /// vertices there: all pieces' own points, one piece after the other, are the points of the whole, and
 /// so are their triangles, in the same order.
 ///
-/// What is held beside the mesh is small, and let go while the mesh is written. Throws Aborted when
+/// What is held beside the mesh is small, and let go while the mesh is written. Throws Error before the
+/// work when the surface will not fit into the memory limit, see EstimateContour; and when it comes out
+/// larger than that. Throws Aborted when
 /// the progress wants to stop; what was written then is of no use.
 void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const AllocateContour& allocate, const Progress& progress = {},

@@ -68,6 +68,8 @@ public:
     const Eigen::Vector3d& free, const Eigen::Vector3d& matter, const FieldScope& scope) const;
 
   FieldScope Root() const { return this->Field.Root(); }
+  const ContourField& Inner() const { return this->Field; }
+  const Eigen::AlignedBox3d& Box() const { return this->Bounds; }
 
 private:
   const ContourField& Field;

@@ -22,6 +22,8 @@
 
 #include <cmath>
 
+#include <unistd.h>
+
 namespace freespace
 {
 
@@ -42,6 +44,13 @@ const CLI::Validator notNegative(
 
 namespace
 {
+
+// Three quarters of the machine's memory, in MiB.
+double ShareOfMemory()
+{
+  const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+  return 0.75 * pages * sysconf(_SC_PAGESIZE) / (1024 * 1024);
+}
 
 // Whether features are points of a structure-from-motion model rather than of edges.
 bool AreIsolated(vtkMultiBlockDataSet* features)
@@ -183,6 +192,12 @@ void ContourStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Surface");
   command
+    .add_option("--memory-limit", this->MemoryLimit,
+      "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters of "
+      "what the machine has")
+    ->check(notNegative)
+    ->group("Surface");
+  command
     .add_option("--hull-margin", this->HullMargin,
       "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
     ->check(CLI::Range(0.0, 10.0))
@@ -220,6 +235,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
   contour->SetCells(this->Cells);
   contour->SetSharpEdges(!this->NotSharp);
   contour->SetObservedOnly(this->Observed && pieces == 1);
+  contour->SetMemoryLimit(this->MemoryLimit < 0 ? ShareOfMemory() : this->MemoryLimit);
   session.Run(contour, "contour", piece, pieces);
   return contour->GetOutput();
 }

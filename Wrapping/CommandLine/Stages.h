@@ -67,6 +67,7 @@ public:
 
 private:
   int Cells = 256;
+  double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
   double HullMargin = 0.01;
   int MinimumViews = 1;
   bool NotSharp = false;
