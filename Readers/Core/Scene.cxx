@@ -212,6 +212,16 @@ Board ReadBoard(const Node& node)
   return board;
 }
 
+// Where a byte (counted from one) of a text is, for people.
+std::string PlaceOf(const std::string& text, std::size_t byte)
+{
+  const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
+  const std::size_t lastBreak = before.rfind('\n');
+  const std::size_t column = before.size() - (lastBreak == std::string::npos ? 0 : lastBreak + 1);
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+    ", column " + std::to_string(column + 1);
+}
+
 Json ParseFile(const std::string& file)
 {
   std::ifstream stream(file);
@@ -219,13 +229,15 @@ Json ParseFile(const std::string& file)
   {
     throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
   }
+  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
   try
   {
-    return Json::parse(stream);
+    return Json::parse(text);
   }
-  catch (const Json::exception& error)
+  catch (const Json::parse_error& error)
   {
-    throw Error("Cannot read " + file + ": it is not valid JSON (" + error.what() + ").");
+    throw Error("Cannot read " + file + ": it is not valid JSON, the fault is in " +
+      PlaceOf(text, error.byte) + ".");
   }
 }
 

@@ -139,7 +139,8 @@ TEST(Scene, BrokenJson)
 {
   ExpectError("", { "JSON" });
   ExpectError("{ \"images\": ", { "JSON" });
-  ExpectError(R"({ "images": "pictures" "model": "sparse" })", { "JSON", "line 1" });
+  ExpectError(R"({ "images": "pictures" "model": "sparse" })", { "JSON", "line 1, column 30" });
+  ExpectError("{\n  \"images\": \"pictures\",\n}", { "JSON", "line 3, column 1." });
   ExpectError("[]", { "object" });
 }
 
