@@ -342,13 +342,18 @@ std::vector<View> ViewsFromBlocks(vtkMultiBlockDataSet* blocks)
   return views;
 }
 
+DisparityMap MapFromBlocks(vtkMultiBlockDataSet* blocks, unsigned int index)
+{
+  return MapFromBlock(
+    PolyDataBlock(blocks, index), BlockName(blocks, index), static_cast<int>(index));
+}
+
 std::vector<DisparityMap> MapsFromBlocks(vtkMultiBlockDataSet* blocks)
 {
   std::vector<DisparityMap> maps;
   for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
   {
-    maps.push_back(
-      MapFromBlock(PolyDataBlock(blocks, i), BlockName(blocks, i), static_cast<int>(i)));
+    maps.push_back(MapFromBlocks(blocks, i));
   }
   return maps;
 }

@@ -59,11 +59,13 @@ VTKFREESPACEFILTERS_EXPORT std::string BlockName(vtkMultiBlockDataSet* blocks, u
 
 /// All views of a data set in its order. Throws Error when a block is not a vtkPolyData.
 VTKFREESPACEFILTERS_EXPORT std::vector<View> ViewsFromBlocks(vtkMultiBlockDataSet* blocks);
+VTKFREESPACEFILTERS_EXPORT DisparityMap MapFromBlocks(
+  vtkMultiBlockDataSet* blocks, unsigned int index);
 VTKFREESPACEFILTERS_EXPORT std::vector<DisparityMap> MapsFromBlocks(vtkMultiBlockDataSet* blocks);
 
 /// Sets block `index` and its name.
-VTKFREESPACEFILTERS_EXPORT void SetNamedBlock(vtkMultiBlockDataSet* blocks, unsigned int index,
-  const std::string& name, vtkPolyData* block);
+VTKFREESPACEFILTERS_EXPORT void SetNamedBlock(
+  vtkMultiBlockDataSet* blocks, unsigned int index, const std::string& name, vtkPolyData* block);
 
 }
 

@@ -54,12 +54,14 @@ int vtkDelaunayDisparityFilter::RequestData(
     {
       freespace::ContinueBackground(maps, views, background, freespace::SMPParallelFor);
     }
+    views.clear();
     progress(0.9);
     for (std::size_t i = 0; i < maps.size(); ++i)
     {
       freespace::RemoveUntrustedTriangles(maps[i], untrusted);
       freespace::SetNamedBlock(
         output, static_cast<unsigned int>(i), maps[i].name, freespace::BlockFromMap(maps[i]));
+      maps[i] = {}; // not all of them twice in memory
     }
   }
   catch (...)

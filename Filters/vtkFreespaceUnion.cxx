@@ -135,8 +135,12 @@ void vtkFreespaceUnion::Build()
   options.hullMargin = this->HullMargin;
   try
   {
+    vtkMultiBlockDataSet* maps = this->Inner->Maps;
     this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
-      freespace::MapsFromBlocks(this->Inner->Maps), options, freespace::SMPParallelFor);
+      maps->GetNumberOfBlocks(),
+      [maps](std::size_t i)
+      { return freespace::MapFromBlocks(maps, static_cast<unsigned int>(i)); },
+      options, freespace::SMPParallelFor);
   }
   catch (const std::exception& error)
   {

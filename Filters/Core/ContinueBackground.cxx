@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
+#include "ForEach.h"
 #include "OverlappingViews.h"
 #include "ViewFreespace.h"
 
@@ -506,29 +507,20 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>
 {
   options.Check();
   std::vector<std::unique_ptr<Scene>> scenes(maps.size());
-  parallelFor(maps.size(),
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        scenes[v] = std::make_unique<Scene>(maps[v], options);
-      }
-    });
+  ForEach(parallelFor, maps.size(),
+    [&](std::size_t v) { scenes[v] = std::make_unique<Scene>(maps[v], options); });
   const FeatureCloud cloud(views);
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   std::vector<DisparityMap> continued(maps.size());
-  parallelFor(maps.size(),
-    [&](std::size_t begin, std::size_t end)
+  ForEach(parallelFor, maps.size(),
+    [&](std::size_t v)
     {
-      for (std::size_t v = begin; v < end; ++v)
+      BackgroundContinuer::Others others;
+      for (int other : overlapping[v])
       {
-        BackgroundContinuer::Others others;
-        for (int other : overlapping[v])
-        {
-          others.push_back(scenes[other].get());
-        }
-        continued[v] = BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud);
+        others.push_back(scenes[other].get());
       }
+      continued[v] = BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud);
     });
   maps = std::move(continued);
 }

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
+#include "ForEach.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -14,7 +15,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <numeric>
 #include <queue>
 #include <thread>
@@ -540,38 +540,18 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   progress(0);
   const FeatureCloud cloud(views);
   std::vector<DisparityMap> maps(views.size());
-  std::vector<std::exception_ptr> faults(views.size());
-  std::atomic<bool> stop{ false };
   std::atomic<std::size_t> done{ 0 };
   const std::thread::id caller = std::this_thread::get_id();
-  parallelFor(views.size(),
-    [&](std::size_t begin, std::size_t end)
+  ForEach(parallelFor, views.size(),
+    [&](std::size_t v)
     {
-      for (std::size_t v = begin; v < end && !stop; ++v)
+      maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options);
+      ++done;
+      if (std::this_thread::get_id() == caller)
       {
-        try
-        {
-          maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options);
-          ++done;
-          if (std::this_thread::get_id() == caller)
-          {
-            progress(static_cast<double>(done) / views.size());
-          }
-        }
-        catch (...)
-        {
-          faults[v] = std::current_exception();
-          stop = true;
-        }
+        progress(static_cast<double>(done) / views.size());
       }
     });
-  for (const std::exception_ptr& fault : faults)
-  {
-    if (fault)
-    {
-      std::rethrow_exception(fault);
-    }
-  }
   progress(1);
   return maps;
 }

@@ -145,6 +145,12 @@ Points DropInner(const Points& points, double tolerance, int rings)
   return kept;
 }
 
+// What counts as nothing among points in a box.
+double Tolerance(const Eigen::AlignedBox3d& box)
+{
+  return 1e-12 * (box.diagonal().norm() + box.center().norm());
+}
+
 // A flat hull: its plane from both sides, and the lines of its edges within the plane.
 std::vector<Plane> FlatPlanes(const Points& points, const Plane& plane)
 {
@@ -168,6 +174,21 @@ std::vector<Plane> FlatPlanes(const Points& points, const Plane& plane)
 
 }
 
+Points FeatureHull::OuterPoints(const Points& points)
+{
+  if (points.size() <= 1000)
+  {
+    return points;
+  }
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : points)
+  {
+    box.extend(p);
+  }
+  // Few directions first, so that the many are asked of few points.
+  return DropInner(DropInner(points, Tolerance(box), 5), Tolerance(box), 16);
+}
+
 FeatureHull::FeatureHull(const Points& points, double margin)
 {
   Points finite;
@@ -184,14 +205,11 @@ FeatureHull::FeatureHull(const Points& points, double margin)
   {
     return;
   }
-  const double tolerance = 1e-12 * (box.diagonal().norm() + box.center().norm());
-  // Few directions first, so that the many are asked of few points.
-  const Points outer =
-    finite.size() > 1000 ? DropInner(DropInner(finite, tolerance, 5), tolerance, 16) : finite;
+  const Points outer = OuterPoints(finite);
   Points corners;
   std::vector<Plane> planes;
   Plane flat;
-  if (SpanVolume(outer, tolerance, flat))
+  if (SpanVolume(outer, Tolerance(box), flat))
   {
     planes = FacetPlanes(outer, corners);
   }

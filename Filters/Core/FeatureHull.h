@@ -24,6 +24,10 @@ public:
   /// The margin is in the points' unit.
   FeatureHull(const std::vector<Eigen::Vector3d>& points, double margin);
 
+  /// Those of the points, all finite, that can be corners of their hull, and perhaps some more: a
+  /// fraction of the many that lie well inside.
+  static std::vector<Eigen::Vector3d> OuterPoints(const std::vector<Eigen::Vector3d>& points);
+
   bool IsEmpty() const { return this->Normals.cols() == 0; }
 
   /// Box of the pushed out hull; empty without points.

@@ -2,6 +2,7 @@
 #include "FreespaceUnion.h"
 
 #include "Error.h"
+#include "ForEach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,21 @@ void CheckTriangles(const DisparityMap& map)
   }
 }
 
+// What spans the hull: not what was put behind an occluding edge.
+std::vector<Vector3d> FiniteFeatures(const DisparityMap& map)
+{
+  std::vector<Vector3d> features;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+  {
+    const bool isFeature = i >= map.sourceView.size() || map.sourceView[i] >= 0;
+    if (isFeature && map.points[i].allFinite())
+    {
+      features.push_back(map.points[i]);
+    }
+  }
+  return features;
+}
+
 }
 
 void FreespaceUnionOptions::Check() const
@@ -59,53 +75,57 @@ void FreespaceUnionOptions::Check() const
 
 FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   const FreespaceUnionOptions& options, const ParallelFor& parallelFor)
+  : FreespaceUnion(
+      maps.size(), [&maps](std::size_t i) { return maps[i]; }, options, parallelFor)
+{
+}
+
+FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
+  const FreespaceUnionOptions& options, const ParallelFor& parallelFor)
   : Options(options)
 {
   options.Check();
-  if (maps.size() > MostViews)
+  if (count > MostViews)
   {
-    throw Error("There are " + std::to_string(maps.size()) + " views, at most " +
+    throw Error("There are " + std::to_string(count) + " views, at most " +
       std::to_string(MostViews) + " can be united.");
   }
   // Nothing but the hull could ever be free. Without any views all is free anyway.
-  if (!maps.empty() && static_cast<std::size_t>(options.minimumViews) > maps.size())
+  if (count > 0 && static_cast<std::size_t>(options.minimumViews) > count)
   {
     throw Error("The minimum number of views is " + std::to_string(options.minimumViews) +
-      ", but there are only " + std::to_string(maps.size()) + " views.");
+      ", but there are only " + std::to_string(count) + " views.");
   }
+  this->Views.resize(count);
+  std::vector<std::vector<Vector3d>> outer(count);
+  std::vector<Eigen::AlignedBox3d> boxes(count);
+  std::mutex asking;
+  ForEach(parallelFor, count,
+    [&](std::size_t i)
+    {
+      const DisparityMap map = [&]
+      {
+        const std::lock_guard<std::mutex> lock(asking);
+        return mapOf(i);
+      }();
+      CheckTriangles(map);
+      const std::vector<Vector3d> features = FiniteFeatures(map);
+      for (const Vector3d& feature : features)
+      {
+        boxes[i].extend(feature);
+      }
+      outer[i] = FeatureHull::OuterPoints(features);
+      this->Views[i] = std::make_unique<ViewFreespace>(map);
+    });
   std::vector<Vector3d> features;
   Eigen::AlignedBox3d box;
-  for (const DisparityMap& map : maps)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    CheckTriangles(map);
-    for (std::size_t i = 0; i < map.points.size(); ++i)
-    {
-      const bool isFeature = i >= map.sourceView.size() || map.sourceView[i] >= 0;
-      if (isFeature && map.points[i].allFinite())
-      {
-        features.push_back(map.points[i]);
-        box.extend(map.points[i]);
-      }
-    }
+    features.insert(features.end(), outer[i].begin(), outer[i].end());
+    box.extend(boxes[i]);
   }
   const double margin = features.empty() ? 0.0 : options.hullMargin * box.diagonal().norm();
-  // The hull is one task beside the views.
-  this->Views.resize(maps.size());
-  parallelFor(maps.size() + 1,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        if (i < maps.size())
-        {
-          this->Views[i] = std::make_unique<ViewFreespace>(maps[i]);
-        }
-        else
-        {
-          this->FeaturesHull = std::make_unique<FeatureHull>(features, margin);
-        }
-      }
-    });
+  this->FeaturesHull = std::make_unique<FeatureHull>(features, margin);
 }
 
 FreespaceUnion::Winner FreespaceUnion::Evaluate(const Vector3d& point) const

@@ -7,6 +7,7 @@
 #include "ViewFreespace.h"
 #include "ViewIndex.h"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -37,6 +38,12 @@ class FreespaceUnion : public ContourField
 public:
   /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point that is not there.
   FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
+    const ParallelFor& parallelFor = SerialFor);
+
+  /// Of so many maps, each asked for once, used and dropped: they need not all be in memory. The function
+  /// is called from several threads, for no two of them at once.
+  using MapSource = std::function<DisparityMap(std::size_t)>;
+  FreespaceUnion(std::size_t count, const MapSource& mapOf, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor);
 
   /// Infinite where there are no features at all: everything is free.

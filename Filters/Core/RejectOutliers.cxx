@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
+#include "ForEach.h"
 #include "OverlappingViews.h"
 #include "ViewFreespace.h"
 #include "ViolatedTriangles.h"
@@ -240,21 +241,10 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const ParallelFor& parallelFor)
 {
   options.Check();
-  const auto forEachView = [&](const auto& body)
-  {
-    parallelFor(maps.size(),
-      [&body](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t v = begin; v < end; ++v)
-        {
-          body(v);
-        }
-      });
-  };
   const bool asksOthers = options.seeThroughViews > 0 || options.violatingFeatures > 0;
   std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
   Flags supported(maps.size()), accepted(maps.size());
-  forEachView(
+  ForEach(parallelFor, maps.size(),
     [&](std::size_t v)
     {
       freespaces[v] = asksOthers ? std::make_unique<ViewFreespace>(maps[v]) : nullptr;
@@ -264,7 +254,7 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
   const auto overlapping =
     options.seeThroughViews > 0 ? OverlappingViews(maps) : std::vector<std::vector<int>>();
-  forEachView(
+  ForEach(parallelFor, maps.size(),
     [&](std::size_t v)
     {
       std::vector<char> passed = supported[v], behind(maps[v].points.size(), 0);
