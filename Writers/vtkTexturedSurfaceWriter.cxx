@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 
 vtkStandardNewMacro(vtkTexturedSurfaceWriter);
 
@@ -55,6 +56,21 @@ void WriteColouredPLY(vtkPolyData* surface, const std::string& fileName)
   }
 }
 
+// VTK's writer names the texture with the folder that the files are made in, which is not where they
+// end: the three lie beside each other.
+void WriteMaterial(const std::string& fileName)
+{
+  std::filesystem::path material = fileName;
+  const std::string name = material.stem().string();
+  std::ofstream file(material.replace_extension(".mtl"));
+  file << "newmtl " << name << "\nmap_Kd " << name << ".png\n";
+  file.close();
+  if (!file)
+  {
+    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+  }
+}
+
 void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const std::string& fileName)
 {
   vtkNew<vtkOBJWriter> writer;
@@ -65,6 +81,7 @@ void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const std::string& fi
   {
     throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
   }
+  WriteMaterial(fileName);
 }
 
 }

@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 using namespace freespace;
@@ -232,6 +233,9 @@ TEST(TexturedSurfaceWriter, OBJHasItsMaterialAndTextureBeside)
   EXPECT_TRUE(fs::exists(folder + "/model.mtl"));
   ASSERT_TRUE(fs::exists(folder + "/model.png"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 3);
+  std::ifstream material(folder + "/model.mtl");
+  const std::string lines((std::istreambuf_iterator<char>(material)), {});
+  EXPECT_EQ(lines, "newmtl model\nmap_Kd model.png\n") << "the texture is named without a folder";
   vtkNew<vtkOBJReader> reader;
   reader->SetFileName((folder + "/model.obj").c_str());
   reader->Update();

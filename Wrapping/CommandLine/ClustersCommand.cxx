@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "NotNegative.h"
 #include "Session.h"
 
 #include <vtkClusterProposal.h>
@@ -47,7 +48,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command
     .add_option("--separation", settings.separation,
       "Of references nearer than this keep one, degrees; 0 keeps all")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str();
 }
 

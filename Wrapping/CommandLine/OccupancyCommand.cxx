@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "NotNegative.h"
 #include "Session.h"
 #include "Stages.h"
 
@@ -10,11 +11,38 @@
 
 #include <memory>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace freespace
 {
 
 namespace
 {
+
+/// Lets what is written to the standard error go nowhere: OctoMap's library tells there how many nodes
+/// it writes, and knows no way to keep silent.
+class SilentStandardError
+{
+public:
+  SilentStandardError()
+    : Kept(dup(STDERR_FILENO))
+  {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~SilentStandardError()
+  {
+    dup2(this->Kept, STDERR_FILENO);
+    close(this->Kept);
+  }
+  SilentStandardError(const SilentStandardError&) = delete;
+  SilentStandardError& operator=(const SilentStandardError&) = delete;
+
+private:
+  int Kept;
+};
 
 struct Settings
 {
@@ -41,15 +69,15 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
   command
     ->add_option("--resolution", settings->resolution,
       "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str();
   command
     ->add_option("--hull-margin", settings->hullMargin,
       "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str();
   command->add_option("--minimum-views", settings->minimumViews, "So many views make a point free")
-    ->check(CLI::PositiveNumber)
+    ->check(CLI::Range(1, 1000000))
     ->capture_default_str();
   command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
   command->callback(session.Later(
@@ -62,7 +90,11 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetResolution(settings->resolution);
       writer->SetHullMargin(settings->hullMargin);
       writer->SetMinimumViews(settings->minimumViews);
-      session.Write(writer);
+      {
+        const SilentStandardError silent;
+        session.Write(writer);
+      }
+      session.Tell("wrote " + settings->output);
     }));
 }
 

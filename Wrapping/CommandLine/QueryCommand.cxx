@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "Error.h"
+#include "NotNegative.h"
 #include "Session.h"
 #include "Stages.h"
 
@@ -168,7 +169,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
   command
     ->add_option("--hull-margin", settings->hullMargin,
       "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str();
   command
     ->add_option(

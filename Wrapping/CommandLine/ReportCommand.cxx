@@ -5,6 +5,7 @@
 #include "CameraDrawing.h"
 #include "Error.h"
 #include "GivenOptions.h"
+#include "NewFolder.h"
 #include "NovelCameras.h"
 #include "ReportFigures.h"
 #include "ReportNumbers.h"
@@ -66,40 +67,6 @@ struct Surroundings
     }
     return cameras;
   }
-};
-
-/// Takes away a folder that it made, if nothing came into it.
-class NewFolder
-{
-public:
-  explicit NewFolder(const std::string& folder)
-    : Folder(folder)
-  {
-    std::error_code problem;
-    this->IsNew = fs::create_directories(folder, problem);
-    if (!problem && !fs::is_directory(folder))
-    {
-      problem = std::make_error_code(std::errc::not_a_directory);
-    }
-    if (problem)
-    {
-      throw Error("Cannot make the folder " + folder + ": " + problem.message() + ".");
-    }
-  }
-  ~NewFolder()
-  {
-    std::error_code ignored;
-    if (this->IsNew && fs::is_empty(this->Folder, ignored))
-    {
-      fs::remove(this->Folder, ignored);
-    }
-  }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-
-private:
-  std::string Folder;
-  bool IsNew = false;
 };
 
 void AddOptions(CLI::App& command, Settings& settings)

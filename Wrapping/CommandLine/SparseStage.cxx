@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SparseStage.h"
 
+#include "NotNegative.h"
 #include "Session.h"
 
 #include <vtkFeatureSupportFilter.h>
@@ -25,13 +26,13 @@ void SparseStage::AddOptions(CLI::App& command)
     .add_option("--min-angle", this->MinimumAngle,
       "The widest angle between two rays to a point must be so large, degrees; the wider half of "
       "the points counts anyway")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
   command
     .add_option("--min-support", this->SupportNeighbors,
       "Of the dozen features about one so many must be about as far away; 0 keeps all")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
 }

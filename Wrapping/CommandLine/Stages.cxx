@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "NotNegative.h"
 #include "Session.h"
 
 #include <vtkAppendPiecesFilter.h>
@@ -20,27 +21,10 @@
 #include <vtkViewBlocksReader.h>
 #include <vtkViewBlocksWriter.h>
 
-#include <cmath>
-
 #include <unistd.h>
 
 namespace freespace
 {
-
-namespace
-{
-
-// CLI11's own NonNegativeNumber takes not-a-number, and tells its limits with 309 digits.
-const CLI::Validator notNegative(
-  [](const std::string& text)
-  {
-    double value = 0;
-    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
-    return good ? std::string() : "'" + text + "' is not a number of 0 or more";
-  },
-  "NUMBER >= 0");
-
-}
 
 namespace
 {
@@ -72,12 +56,12 @@ void StereoStage::AddOptions(CLI::App& command)
 {
   command
     .add_option("--min-depth", this->MinimumDepth, "Nearest depth to search; 0: from the cameras")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Stereo");
   command
     .add_option("--max-depth", this->MaximumDepth, "Farthest depth to search; 0: from the cameras")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Stereo");
 }
@@ -105,13 +89,13 @@ void TriangulateStage::AddOptions(CLI::App& command)
   command
     .add_option("--support", this->SupportNeighbors,
       "Neighbours that must agree with a feature for it to count; 0 keeps all")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--tolerance", this->Tolerance,
       "How far another view's feature may stick out of the free space, fraction of its depth")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
@@ -138,13 +122,13 @@ void TriangulateStage::AddOptions(CLI::App& command)
   command
     .add_option("--longest-edge", this->LongestEdge,
       "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--depth-ratio", this->GreatestDepthRatio,
       "Triangles over a greater ratio of depths carve nothing; 0: no limit")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
@@ -195,7 +179,7 @@ void ContourStage::AddOptions(CLI::App& command)
     .add_option("--memory-limit", this->MemoryLimit,
       "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters of "
       "what the machine has")
-    ->check(notNegative)
+    ->check(NotNegative())
     ->group("Surface");
   command
     .add_option("--hull-margin", this->HullMargin,

@@ -2,6 +2,7 @@
 #include "Commands.h"
 
 #include "Error.h"
+#include "NotNegative.h"
 #include "Session.h"
 #include "Stages.h"
 
@@ -46,7 +47,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command
     .add_option("--texel", settings.texel,
       "Side of a texel in the scene's unit (0: as fine as the photographs)")
-    ->check(CLI::NonNegativeNumber)
+    ->check(NotNegative())
     ->capture_default_str();
   command.add_option("--largest", settings.largest, "Longest side of the texture, texels")
     ->check(CLI::Range(16, 32768))

@@ -2,6 +2,8 @@
 #include "Commands.h"
 
 #include "Error.h"
+#include "NewFolder.h"
+#include "Picture.h"
 #include "Session.h"
 #include "Stages.h"
 #include "Turntable.h"
@@ -117,24 +119,6 @@ std::vector<Shot> FindShots(Session& session, const Settings& settings)
     : ShotsOfModel(cameras->GetOutput(), settings.output);
 }
 
-void PrepareOutput(const Settings& settings)
-{
-  if (!settings.view.empty())
-  {
-    if (fs::path(settings.output).extension() != ".png")
-    {
-      throw Error("Cannot write '" + settings.output + "': the name of a picture ends in .png.");
-    }
-    return;
-  }
-  std::error_code problem;
-  fs::create_directories(settings.output, problem);
-  if (problem)
-  {
-    throw Error("Cannot make the folder " + settings.output + ": " + problem.message() + ".");
-  }
-}
-
 void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned int photographs)
 {
   const int inUse = mapper->GetNumberOfViewsInUse();
@@ -145,11 +129,16 @@ void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned
 void ViewScene(Session& session, const Settings& settings)
 {
   const std::vector<Shot> shots = FindShots(session, settings);
-  PrepareOutput(settings);
+  if (!settings.view.empty())
+  {
+    CheckPictureName(settings.output);
+  }
   const auto surface = ReadSurface(session, settings.mesh);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
   session.Run(photographs, "photographs");
+  const auto folder =
+    settings.view.empty() ? std::make_unique<NewFolder>(settings.output) : nullptr;
   vtkNew<vtkViewDependentTextureMapper> mapper;
   mapper->SetPhotographs(photographs->GetOutput());
   vtkNew<vtkSurfacePicture> picture;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_NotNegative_h
+#define freespace_NotNegative_h
+
+#include <CLI/CLI.hpp>
+
+namespace freespace
+{
+
+/// Lets a finite number of 0 or more pass. CLI11's own NonNegativeNumber takes not-a-number, and tells its
+/// limits with 309 digits.
+CLI::Validator NotNegative();
+
+}
+
+#endif
