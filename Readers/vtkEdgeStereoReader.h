@@ -108,7 +108,7 @@ public:
 
   ///@{
   /**
-   * The least angle between an edge and the epipolar line for a match, degrees. Default 8.
+   * The least angle between an edge and the epipolar line for a match, degrees. Default 6.
    */
   vtkSetMacro(MinimumAngle, double);
   vtkGetMacro(MinimumAngle, double);
@@ -125,7 +125,7 @@ public:
 
   ///@{
   /**
-   * How many tokens of a chain must match without a break. Default 6.
+   * How many tokens of a chain must match without a break. Default 4.
    */
   vtkSetMacro(MinimumRun, int);
   vtkGetMacro(MinimumRun, int);
@@ -149,9 +149,9 @@ protected:
   double LowContrast = 1.8;
   double HighContrast = 4.5;
   double Tolerance = 0.7;
-  double MinimumAngle = 8.0;
+  double MinimumAngle = 6.0;
   double ColorTolerance = 45.0;
-  int MinimumRun = 6;
+  int MinimumRun = 4;
 
 private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;

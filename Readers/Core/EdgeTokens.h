@@ -24,7 +24,7 @@ struct EdgeTokenOptions
   double lowContrast = 1.8;  ///< least slope of an edge at middle grey, grey levels per pixel; > 0;
                              ///< as the noise, it is less in the dark and more in the light
   double highContrast = 4.5; ///< slope that an edge chain reaches somewhere; >= lowContrast
-  int minimumLength = 8;     ///< of a chain, tokens; > 0
+  int minimumLength = 6;     ///< of a chain, tokens; > 0
   int fitRadius = 4;         ///< tokens to either side that a token's position and tangent are
                              ///< fitted to by a parabola; > 0
 

@@ -313,7 +313,7 @@ private:
   // other images' edges.
   void FindHypothesesAlongChain(int begin, int end)
   {
-    const int stride = std::clamp(this->Options.minimumRun - 2, 1, 4);
+    const int stride = std::clamp(this->Options.minimumRun, 1, 4);
     this->TokenStatesOf.resize(end - begin);
     const auto search = [&](int token)
     {
