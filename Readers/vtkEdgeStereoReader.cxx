@@ -14,8 +14,10 @@
 #include <opencv2/core/utility.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <set>
 
 vtkStandardNewMacro(vtkEdgeStereoReader);
 
@@ -34,6 +36,43 @@ public:
 private:
   int Before = cv::getNumThreads();
 };
+
+// The files that a scene's features come from, beside its own.
+std::vector<std::string> FilesOf(const freespace::Scene& scene)
+{
+  std::set<std::string> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(scene.ModelFolder(), error))
+  {
+    files.insert(entry.path().string());
+  }
+  for (const freespace::Cluster& cluster : scene.clusters)
+  {
+    for (const auto& triplet : cluster.triplets)
+    {
+      for (const std::string& image : triplet)
+      {
+        files.insert(scene.ImagePath(image));
+      }
+    }
+  }
+  return { files.begin(), files.end() };
+}
+
+// Changes when one of the files is written, appears or goes.
+long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& others)
+{
+  std::uint64_t time = 0;
+  const auto add = [&time](const std::string& file)
+  {
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(file, error);
+    time = 31 * time + (error ? 0 : static_cast<std::uint64_t>(written.time_since_epoch().count()));
+  };
+  add(scene);
+  std::for_each(others.begin(), others.end(), add);
+  return static_cast<long long>(time);
+}
 
 // As many clusters at a time as there are threads: this bounds the memory and lets the calling
 // thread report progress in between. The first cluster in the scene's order that fails decides the
@@ -89,21 +128,21 @@ vtkEdgeStereoReader::vtkEdgeStereoReader()
 
 vtkMTimeType vtkEdgeStereoReader::GetMTime()
 {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(this->FileName, error);
-  const long long ticks = error ? 0 : static_cast<long long>(time.time_since_epoch().count());
-  if (ticks != this->FileTime)
+  const long long time = TimeOfFiles(this->FileName, this->FilesRead);
+  if (time != this->FilesTime)
   {
-    this->FileTime = ticks;
-    this->FileChanged.Modified();
+    this->FilesTime = time;
+    this->FilesChanged.Modified();
   }
-  return std::max(this->Superclass::GetMTime(), this->FileChanged.GetMTime());
+  return std::max(this->Superclass::GetMTime(), this->FilesChanged.GetMTime());
 }
 
 int vtkEdgeStereoReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  this->FilesRead.clear();
+  this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   try
   {
     if (this->MinimumDepth < 0 || this->MaximumDepth < 0)
@@ -128,6 +167,8 @@ int vtkEdgeStereoReader::RequestData(
     }
     options.Check();
     const freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName);
+    this->FilesRead = FilesOf(scene);
+    this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::vector<freespace::EdgeView> views =
       FindAllFeatures(scene, options, freespace::AlgorithmProgress(this));
     for (std::size_t i = 0; i < views.size(); ++i)

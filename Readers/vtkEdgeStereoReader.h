@@ -46,6 +46,7 @@
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
 #include <string> // for FileName
+#include <vector> // for FilesRead
 
 class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
 {
@@ -132,7 +133,8 @@ public:
   ///@}
 
   /**
-   * Later than the reader's own time when the scene's file is younger than it.
+   * Later than the reader's own time when one of the files that it has read has changed since: the
+   * scene's, the camera model's or a photograph.
    */
   vtkMTimeType GetMTime() override;
 
@@ -157,8 +159,9 @@ private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
   void operator=(const vtkEdgeStereoReader&) = delete;
 
-  vtkTimeStamp FileChanged;
-  long long FileTime = 0;
+  vtkTimeStamp FilesChanged;
+  long long FilesTime = 0;            // of when all of them were written
+  std::vector<std::string> FilesRead; // beside the scene's
 };
 
 #endif

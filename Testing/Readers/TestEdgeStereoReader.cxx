@@ -158,11 +158,18 @@ TEST(EdgeStereoReader, RunsAgainWhenTheFileChanges)
   const vtkMTimeType before = reader->GetOutput()->GetMTime();
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetMTime(), before);
-  const std::filesystem::path file = scene.File;
-  std::filesystem::last_write_time(
-    file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
-  reader->Update();
-  EXPECT_GT(reader->GetOutput()->GetMTime(), before);
+  vtkMTimeType last = before;
+  for (const char* name : { "scene.json", "sparse/cameras.txt", "images/l.png" })
+  {
+    const std::filesystem::path file = scene.Folder.Path(name);
+    std::filesystem::last_write_time(
+      file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
+    reader->Update();
+    EXPECT_GT(reader->GetOutput()->GetMTime(), last) << name;
+    last = reader->GetOutput()->GetMTime();
+    reader->Update();
+    EXPECT_EQ(reader->GetOutput()->GetMTime(), last) << name;
+  }
 }
 
 TEST(EdgeStereoReader, AbortLeavesNothing)
