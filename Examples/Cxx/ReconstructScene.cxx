@@ -26,6 +26,10 @@ int main(int argc, char* argv[])
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputConnection(support->GetOutputPort());
   maps->Update();
+  if (maps->GetOutput()->GetNumberOfBlocks() == 0)
+  {
+    return 1; // VTK has printed why
+  }
   std::cout << maps->GetOutput()->GetNumberOfBlocks() << " disparity maps, "
             << maps->GetOutput()->GetNumberOfPoints() << " points\n";
 

@@ -13,8 +13,7 @@ def main(scene, out, cells=256):
     support.SetInputConnection(stereo.GetOutputPort())
     maps = freespace.vtkDelaunayDisparityFilter()
     maps.SetInputConnection(support.GetOutputPort())
-    maps.Update()
-    for name, view in freespace.views(maps.GetOutput()).items():
+    for name, view in freespace.views(freespace.update(maps)).items():
         print(f"{name}: {len(view['points'])} points, {len(view['triangles'])} triangles")
 
     phi = freespace.vtkFreespaceUnion()
@@ -25,10 +24,13 @@ def main(scene, out, cells=256):
     writer = freespace.vtkSurfaceWriter()
     writer.SetInputConnection(surface.GetOutputPort())
     writer.SetFileName(out)
-    return 0 if writer.Write() else 1
+    freespace.update(writer)
 
 
 if __name__ == '__main__':
     if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    try:
+        main(*sys.argv[1:])
+    except freespace.Error as error:
+        sys.exit(str(error))

@@ -12,3 +12,4 @@ from .vtkFreespaceReaders import *
 from .vtkFreespaceWriters import *
 from .vtkFreespaceRendering import *
 from .arrays import make_view, make_views, surface_arrays, view_arrays, views
+from .update import Error, update
