@@ -41,6 +41,22 @@ def write_triangle(path, faces='3 0 1 2\n'):
                     f'0 0 0\n0.1 0 0\n0 0.1 0\n{faces}')
 
 
+def film_packets(path):
+    """The packets of an Ogg file with one stream, as (size, first bytes)."""
+    data, at, packets, open_packet = path.read_bytes(), 0, [], b''
+    while at < len(data):
+        assert data[at:at + 4] == b'OggS'
+        laces = data[at + 27:at + 27 + data[at + 26]]
+        at += 27 + len(laces)
+        for lace in laces:
+            open_packet += data[at:at + lace]
+            at += lace
+            if lace < 255:
+                packets.append(open_packet)
+                open_packet = b''
+    return packets
+
+
 class WithScene(unittest.TestCase):
     """A scene of one cluster with its maps and mesh, made once; each test has a folder of links to it."""
 
@@ -113,6 +129,26 @@ class TestView(WithScene):
         self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '--turntable', 11, '-o', 'deep/turn')
         names = sorted(os.listdir(self.folder / 'deep' / 'turn'))
         self.assertEqual(names, [f'{i:02}.png' for i in range(11)])
+
+    def test_turntable_as_a_film_has_every_picture(self):
+        self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '--turntable', 7, '-o', 'turn.ogv', '--rate', 5)
+        headers, pictures = film_packets(self.folder / 'turn.ogv')[:3], film_packets(self.folder / 'turn.ogv')[3:]
+        self.assertEqual([packet[:7] for packet in headers], [b'\x80theora', b'\x81theora', b'\x82theora'])
+        self.assertEqual(len(pictures), 7)
+        self.assertGreater(min(map(len, pictures)), 1000, 'each shows something else')
+        identification = headers[0][7:]
+        picture_size = (int.from_bytes(identification[7:10], 'big'), int.from_bytes(identification[10:13], 'big'))
+        self.assertEqual(picture_size, (1134, 756))
+        self.assertEqual(identification[34] >> 3 & 3, 0, 'colours are 4:2:0')
+        rate = struct.unpack('>II', identification[15:23])
+        self.assertEqual(rate[0] / rate[1], 5)
+
+    def test_film_that_cannot_be(self):
+        (self.folder / 'folder.ogv').mkdir()
+        self.fails_to_view('nowhere/turn.ogv', at=('--turntable', '3'), output='nowhere/turn.ogv')
+        self.fails_to_view('none.ply', mesh='none.ply', at=('--turntable', '3'), output='turn.ogv')
+        self.fails_to_view('folder.ogv', at=('--turntable', '3'), output='folder.ogv')
+        self.fails_to_view('--rate', at=('--turntable', '3', '--rate', '0'), output='turn.ogv')
 
     def test_photographs_in_use_are_told(self):
         log = self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '--view', 'cluster1_c', '-o', 'c.png').stderr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "Animation.h"
 #include "Error.h"
 #include "NewFolder.h"
 #include "Picture.h"
@@ -37,6 +38,10 @@ struct Settings
   std::string view;
   std::string model;
   int turntable = 0;
+  int rate = 12;
+
+  bool IsFilm() const { return this->turntable > 0 && Animation::CanWriteFile(this->output); }
+  bool IsFolder() const { return this->view.empty() && !this->IsFilm(); }
 };
 
 void AddOptions(CLI::App& command, Settings& settings)
@@ -49,7 +54,8 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("MESH.ply");
   command
     .add_option("-o,--output", settings.output,
-      "The picture to write for --view, the folder of pictures for --model and --turntable")
+      "The picture to write for --view, the folder of pictures for --model and --turntable, or for "
+      "--turntable a film, .ogv")
     ->required()
     ->type_name("OUT");
   auto* from = command.add_option_group("viewpoint", "Where to look from");
@@ -61,6 +67,9 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->check(CLI::PositiveNumber)
     ->type_name("N");
   from->require_option(1);
+  command.add_option("--rate", settings.rate, "Pictures a second of a film")
+    ->check(CLI::Range(1, 240))
+    ->capture_default_str();
 }
 
 /// A camera to look from, and the file to write.
@@ -126,19 +135,29 @@ void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned
     " photographs" + (inUse < int(photographs) ? ", the best for this camera" : ""));
 }
 
-void ViewScene(Session& session, const Settings& settings)
+void CheckOutput(const Settings& settings)
 {
-  const std::vector<Shot> shots = FindShots(session, settings);
   if (!settings.view.empty())
   {
     CheckPictureName(settings.output);
   }
+  else if (settings.IsFilm())
+  {
+    CheckOutputFolder(settings.output);
+  }
+}
+
+void ViewScene(Session& session, const Settings& settings)
+{
+  const std::vector<Shot> shots = FindShots(session, settings);
+  CheckOutput(settings);
   const auto surface = ReadSurface(session, settings.mesh);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
   session.Run(photographs, "photographs");
-  const auto folder =
-    settings.view.empty() ? std::make_unique<NewFolder>(settings.output) : nullptr;
+  const auto folder = settings.IsFolder() ? std::make_unique<NewFolder>(settings.output) : nullptr;
+  const auto film =
+    settings.IsFilm() ? std::make_unique<Animation>(settings.output, settings.rate) : nullptr;
   vtkNew<vtkViewDependentTextureMapper> mapper;
   mapper->SetPhotographs(photographs->GetOutput());
   vtkNew<vtkSurfacePicture> picture;
@@ -149,9 +168,21 @@ void ViewScene(Session& session, const Settings& settings)
   {
     picture->SetViewBlock(shot.view);
     session.Run(picture, fs::path(shot.fileName).filename().string());
-    picture->WritePNG(shot.fileName);
-    session.ThrowIfFailed();
+    if (film)
+    {
+      film->Add(session, picture->GetOutput());
+    }
+    else
+    {
+      picture->WritePNG(shot.fileName);
+      session.ThrowIfFailed();
+    }
     TellViews(session, mapper, photographs->GetOutput()->GetNumberOfBlocks());
+  }
+  if (film)
+  {
+    film->Finish(session);
+    session.Tell("wrote " + settings.output);
   }
 }
 
@@ -166,7 +197,8 @@ void AddViewCommand(CLI::App& program, Session& session)
   command->footer("Examples:\n"
                   "  freespace view scene.json --mesh mesh.ply --view c.jpg -o c.png\n"
                   "  freespace view scene.json --mesh mesh.ply --model novel -o pictures\n"
-                  "  freespace view scene.json --mesh mesh.ply --turntable 36 -o pictures");
+                  "  freespace view scene.json --mesh mesh.ply --turntable 36 -o pictures\n"
+                  "  freespace view scene.json --mesh mesh.ply --turntable 72 -o turn.ogv");
   command->callback(session.Later([settings, &session]() { ViewScene(session, *settings); }));
 }
 
