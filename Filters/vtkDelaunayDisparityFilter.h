@@ -22,9 +22,9 @@
  *
  * Beyond the paper, with ContinueBackground on: where a near edge occludes a far surface the
  * triangulation joins the two by bridges that no surface carries. A bridge, seen at GrazingAngle or
- * more to its normal, through which RefutingViews other views see, has its near corners set back to the surface
- * behind: the one that another view has there, or else the plane of the far features around. Off is
- * the paper.
+ * more to its normal, through which RefutingViews other views see close to its near side, has its
+ * near corners set back to the surface behind: the one that another view has there, or else the plane
+ * of the far features around. Off is the paper.
  *
  * Triangles longer than LongestEdge in the image, or than GreatestDepthRatio in depth, can be left
  * out, so that they carve nothing: for sparse features, among which long triangles are no surface.
@@ -105,7 +105,7 @@ public:
 
   ///@{
   /**
-   * How many other views must see through a bridge; one alone is wrong too often. Default 2.
+   * How many other views must see through a bridge. Default 1.
    */
   vtkSetMacro(RefutingViews, int);
   vtkGetMacro(RefutingViews, int);
@@ -168,7 +168,7 @@ protected:
   vtkTypeBool KeepEdges = 0;
   vtkTypeBool ContinueBackground = 1;
   double GrazingAngle = 70.0;
-  int RefutingViews = 2;
+  int RefutingViews = 1;
   int SupportingNeighbors = 2;
   int SeeThroughViews = 0;
   int ViolatingFeatures = 0;

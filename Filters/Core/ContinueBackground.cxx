@@ -27,6 +27,9 @@ constexpr double SeeThrough = 4;
 constexpr double Flatness = 2;
 constexpr double SticksOut = 2;
 
+// Where a bridge is asked for, from its far side (0) to a near corner (1).
+constexpr double NearSide = 0.8;
+
 // A map with what is asked of it again and again.
 struct Scene
 {
@@ -163,6 +166,7 @@ private:
   std::vector<std::vector<Vector3d>> PointsInBridges(const FeatureCloud& cloud) const;
   double MiddleOfJump(std::size_t triangle) const;
   bool IsRefuted(std::size_t triangle) const;
+  bool IsSeenThrough(const Vector3d& place) const;
   std::optional<double> SetBack(std::size_t triangle, int near);
   std::optional<double> PlaneAround(int far, const Vector2d& pixel);
   std::vector<int> FarPointsAround(int far, double radius);
@@ -188,33 +192,38 @@ double BackgroundContinuer::MiddleOfJump(std::size_t triangle) const
   return (far + near) / 2;
 }
 
-// Whether other views see through the bridge, at one of some places well inside it.
+// Whether other views see through the bridge close to each of its near corners. Where they see
+// through it further off only, the edge that hides the background was missed: it lies somewhere
+// within the bridge, and between it and the near corners there is matter.
 bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
 {
   const auto& corner = this->Own.map.triangles[triangle];
-  const double third = 1.0 / 3;
-  for (const Vector3d& weight : { Vector3d(third, third, third), Vector3d(0.6, 0.2, 0.2),
-         Vector3d(0.2, 0.6, 0.2), Vector3d(0.2, 0.2, 0.6) })
+  const double middle = this->MiddleOfJump(triangle);
+  const auto isNear = [&](int point) { return this->Own.disparity[point] > middle; };
+  Vector3d farSide = Vector3d::Zero();
+  for (int point : corner)
   {
-    Vector3d place = Vector3d::Zero();
-    for (int i = 0; i < 3; ++i)
-    {
-      place += weight[i] * this->Own.map.points[corner[i]];
-    }
-    int seenThrough = 0;
-    for (const Scene* other : this->OtherScenes)
-    {
-      const ViewFreespace::Sample sample = other->freespace.At(place);
-      const double depth = other->map.camera.Depth(place);
-      seenThrough +=
-        sample.triangle >= 0 && sample.value > SeeThrough * this->Options.noise * depth;
-    }
-    if (seenThrough >= this->Options.views)
-    {
-      return true;
-    }
+    farSide += isNear(point) ? Vector3d::Zero() : this->Own.map.points[point];
   }
-  return false;
+  farSide /= static_cast<double>(3 - std::count_if(corner.begin(), corner.end(), isNear));
+  return std::all_of(corner.begin(), corner.end(),
+    [&](int point)
+    {
+      return !isNear(point) ||
+        this->IsSeenThrough(NearSide * this->Own.map.points[point] + (1 - NearSide) * farSide);
+    });
+}
+
+bool BackgroundContinuer::IsSeenThrough(const Vector3d& place) const
+{
+  int views = 0;
+  for (const Scene* other : this->OtherScenes)
+  {
+    const ViewFreespace::Sample sample = other->freespace.At(place);
+    const double depth = other->map.camera.Depth(place);
+    views += sample.triangle >= 0 && sample.value > SeeThrough * this->Options.noise * depth;
+  }
+  return views >= this->Options.views;
 }
 
 // Points around a far one, over triangles that are no bridges.

@@ -17,9 +17,8 @@ struct ContinueBackgroundOptions
   /// A bridge is seen at this angle to its normal or more, degrees; in [0, 90).
   double grazingAngle = 70.0;
 
-  /// So many other views must see through a bridge to refute it; >= 1. One alone is wrong too often:
-  /// its word takes holes out of faces that are seen grazingly.
-  int views = 2;
+  /// So many other views must see through a bridge, close to its near side, to refute it; >= 1.
+  int views = 1;
 
   /// Points of other views so close to the near side of a bridge, pixels, belong to the edge that it
   /// springs from and do not speak for matter under it; >= 0.
@@ -34,7 +33,9 @@ struct ContinueBackgroundOptions
 /// Where a near edge occludes a far surface, a Delaunay triangulation joins the two by triangles that
 /// no surface carries: bridges. They claim too little free space, and where the bridges of all views
 /// overlap, as between two blocks, matter remains that is not there. A bridge is refuted when another
-/// view's free space holds it. Its near corners are then set back to the surface behind, which goes on
+/// view's free space holds it close to its near side: where it does so further off only, the edge that
+/// hides the background was missed, and what is between it and the near side is not known. The near
+/// corners are then set back to the surface behind, which goes on
 /// below the edge:
 /// - where the ray through the corner meets a surface that another view has without a bridge, to that
 ///   surface (the first behind the middle of the jump);

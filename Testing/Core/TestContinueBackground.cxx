@@ -125,6 +125,44 @@ TEST(ContinueBackground, MatterStays)
   }
 }
 
+// A prism whose right side recedes from (0.2, 1) to (0.4, 1.2), and a wall behind it. The central view
+// missed the prism's outer edge: its bridges go from the front's border to the wall, partly through
+// the prism. The view from the right saw that edge, and that the wall goes on behind it.
+TEST(ContinueBackground, BridgesFromBehindAMissedEdgeStay)
+{
+  std::vector<View> views = { MakeView(0, 0), MakeView(0.6, 0.0) };
+  const auto addColumn = [&](std::size_t view, double x, double z)
+  {
+    for (double y = -0.3; y < 0.31; y += 0.01)
+    {
+      const Vector3d point(x, y, z);
+      views[view].points.push_back(point);
+      views[view].imagePoints.push_back(views[view].camera.Project(point));
+    }
+  };
+  addColumn(0, 0.2, 1);
+  addColumn(0, 0.75, WallDepth);
+  addColumn(0, 0.9, WallDepth);
+  addColumn(1, 0.2, 1);
+  addColumn(1, 0.3, WallDepth);
+  addColumn(1, 0.75, WallDepth);
+  const std::vector<View> known = views; // nothing but the free space tells of the outer edge
+  addColumn(1, 0.4, 1.2);
+  DelaunayDisparityOptions apart;
+  apart.minimumDisparity = false;
+  std::vector<DisparityMap> maps = TriangulateViews(views, apart);
+  const ViewFreespace right(maps[1]);
+  EXPECT_TRUE(right.IsFree({ 0.57, 0, 1.67 })) << "the bridge must be seen through further off";
+  const std::size_t points = maps[0].points.size();
+  ContinueBackground(maps, known, OneRefutes());
+  EXPECT_EQ(maps[0].points.size(), points);
+  const ViewFreespace central(maps[0]);
+  for (double y = -0.2; y < 0.2; y += 0.05)
+  {
+    EXPECT_FALSE(central.IsFree({ 0.375, y, 1.5 })) << y; // in the prism
+  }
+}
+
 TEST(ContinueBackground, PointsSetBackAreMarkedAndAtTheirPixels)
 {
   const std::vector<View> views = PlateBeforeWall();
