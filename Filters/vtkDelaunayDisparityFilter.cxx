@@ -46,13 +46,15 @@ int vtkDelaunayDisparityFilter::RequestData(
       own.minimumDisparity = false;
       const std::vector<freespace::DisparityMap> maps =
         freespace::TriangulateViews(views, own, freespace::SMPParallelFor, progress.Part(0.0, 0.2));
-      views = freespace::RejectOutliers(views, maps, outliers, freespace::SMPParallelFor);
+      views = freespace::RejectOutliers(
+        views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.2, 0.3));
     }
     std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
       views, options, freespace::SMPParallelFor, progress.Part(0.3, 0.7));
     if (this->ContinueBackground)
     {
-      freespace::ContinueBackground(maps, views, background, freespace::SMPParallelFor);
+      freespace::ContinueBackground(
+        maps, views, background, freespace::SMPParallelFor, progress.Part(0.7, 0.9));
     }
     views.clear();
     progress(0.9);

@@ -3,9 +3,9 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
-#include "ForEach.h"
 #include "OverlappingViews.h"
 #include "ViewFreespace.h"
+#include "WatchedFor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,7 +153,7 @@ public:
   {
   }
 
-  DisparityMap Continue(const FeatureCloud& cloud);
+  DisparityMap Continue(const FeatureCloud& cloud, const StopFlag& stop);
 
 private:
   struct SetBackBridge
@@ -162,7 +162,7 @@ private:
     std::array<double, 3> disparity; // at its corners, once it is set back
   };
 
-  std::vector<SetBackBridge> RefutedBridges();
+  std::vector<SetBackBridge> RefutedBridges(const StopFlag& stop);
   std::vector<std::vector<Vector3d>> PointsInBridges(const FeatureCloud& cloud) const;
   double MiddleOfJump(std::size_t triangle) const;
   bool IsRefuted(std::size_t triangle) const;
@@ -394,11 +394,13 @@ bool BackgroundContinuer::IsViolated(std::size_t triangle, const std::array<doub
 }
 
 // The bridges that are refuted and below which the background is known.
-std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBridges()
+std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBridges(
+  const StopFlag& stop)
 {
   std::vector<SetBackBridge> refuted;
   for (std::size_t t = 0; t < this->Own.map.triangles.size(); ++t)
   {
+    ThrowIfStopped(stop);
     if (!this->Own.isBridge[t] || !this->IsRefuted(t))
     {
       continue;
@@ -445,14 +447,15 @@ std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
   return points;
 }
 
-DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud)
+DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const StopFlag& stop)
 {
   DisparityMap map = this->Own.map;
   std::vector<double> disparity = this->Own.disparity;
   std::vector<std::vector<int>> setBack(map.points.size()); // behind each point
   const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud);
-  for (const SetBackBridge& bridge : this->RefutedBridges())
+  for (const SetBackBridge& bridge : this->RefutedBridges(stop))
   {
+    ThrowIfStopped(stop);
     if (this->IsViolated(bridge.triangle, bridge.disparity, points[bridge.triangle]))
     {
       continue;
@@ -512,24 +515,26 @@ void ContinueBackgroundOptions::Check() const
 }
 
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
-  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor)
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
   options.Check();
   std::vector<std::unique_ptr<Scene>> scenes(maps.size());
-  ForEach(parallelFor, maps.size(),
-    [&](std::size_t v) { scenes[v] = std::make_unique<Scene>(maps[v], options); });
+  WatchedFor(maps.size(), parallelFor, progress.Part(0.0, 0.3),
+    [&](std::size_t v, const StopFlag&)
+    { scenes[v] = std::make_unique<Scene>(maps[v], options); });
   const FeatureCloud cloud(views);
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   std::vector<DisparityMap> continued(maps.size());
-  ForEach(parallelFor, maps.size(),
-    [&](std::size_t v)
+  WatchedFor(maps.size(), parallelFor, progress.Part(0.3, 1.0),
+    [&](std::size_t v, const StopFlag& stop)
     {
       BackgroundContinuer::Others others;
       for (int other : overlapping[v])
       {
         others.push_back(scenes[other].get());
       }
-      continued[v] = BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud);
+      continued[v] =
+        BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud, stop);
     });
   maps = std::move(continued);
 }

@@ -3,6 +3,7 @@
 #define freespace_ContinueBackground_h
 
 #include "ParallelFor.h"
+#include "Progress.h"
 #include "View.h"
 
 namespace freespace
@@ -47,7 +48,8 @@ struct ContinueBackgroundOptions
 /// view -1, so that maps may now have two points at one pixel: one to either side of the edge.
 /// Looks at the views as they are; the order of the maps is that of the views.
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
-  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor = SerialFor);
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor = SerialFor,
+  const Progress& progress = Progress());
 
 }
 

@@ -3,7 +3,7 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
-#include "ForEach.h"
+#include "WatchedFor.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -12,12 +12,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <queue>
-#include <thread>
 #include <type_traits>
 
 namespace freespace
@@ -142,7 +140,7 @@ public:
   void TriangulateFeatures(const std::vector<Sighting>& features);
   void KeepEdges(const std::vector<std::array<int, 2>>& edges);
   void AddCandidates(const std::vector<Sighting>& sightings);
-  void EnforceMinimumDisparity(double tolerance);
+  void EnforceMinimumDisparity(double tolerance, const StopFlag& stop);
   void Fill(DisparityMap& map) const;
 
 private:
@@ -412,7 +410,8 @@ void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
 }
 
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::EnforceMinimumDisparity(double tolerance)
+void DisparitySurface<Triangulation>::EnforceMinimumDisparity(
+  double tolerance, const StopFlag& stop)
 {
   this->Tolerance = tolerance;
   for (const Face face : this->Delaunay.finite_face_handles())
@@ -421,6 +420,7 @@ void DisparitySurface<Triangulation>::EnforceMinimumDisparity(double tolerance)
   }
   while (!this->Queue.empty())
   {
+    ThrowIfStopped(stop);
     const Highest highest = this->Queue.top();
     this->Queue.pop();
     if (highest.version == highest.face->info().version)
@@ -475,7 +475,8 @@ std::vector<std::array<int, 2>> SightedEdges(const View& view, const std::vector
 
 template <typename Triangulation>
 DisparityMap TriangulateWith(
-  const View& view, int index, const FeatureCloud& cloud, const DelaunayDisparityOptions& options)
+  const View& view, int index, const FeatureCloud& cloud,
+  const DelaunayDisparityOptions& options, const StopFlag& stop)
 {
   std::vector<Sighting> own, others;
   std::vector<int> sighted(view.points.size(), -1);
@@ -506,7 +507,8 @@ DisparityMap TriangulateWith(
   if (options.minimumDisparity)
   {
     surface.AddCandidates(others);
-    surface.EnforceMinimumDisparity(options.tolerance);
+    ThrowIfStopped(stop);
+    surface.EnforceMinimumDisparity(options.tolerance, stop);
   }
   DisparityMap map;
   map.name = view.name;
@@ -517,11 +519,12 @@ DisparityMap TriangulateWith(
 }
 
 DisparityMap TriangulateOne(
-  const View& view, int index, const FeatureCloud& cloud, const DelaunayDisparityOptions& options)
+  const View& view, int index, const FeatureCloud& cloud,
+  const DelaunayDisparityOptions& options, const StopFlag& stop)
 {
   return options.keepEdges && !view.edges.empty()
-    ? TriangulateWith<ConstrainedTriangulation>(view, index, cloud, options)
-    : TriangulateWith<PlainTriangulation>(view, index, cloud, options);
+    ? TriangulateWith<ConstrainedTriangulation>(view, index, cloud, options, stop)
+    : TriangulateWith<PlainTriangulation>(view, index, cloud, options, stop);
 }
 
 }
@@ -530,7 +533,7 @@ DisparityMap TriangulateView(
   const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
 {
   options.Check();
-  return TriangulateOne(views[index], static_cast<int>(index), FeatureCloud(views), options);
+  return TriangulateOne(views[index], static_cast<int>(index), FeatureCloud(views), options, StopFlag(false));
 }
 
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
@@ -540,19 +543,9 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   progress(0);
   const FeatureCloud cloud(views);
   std::vector<DisparityMap> maps(views.size());
-  std::atomic<std::size_t> done{ 0 };
-  const std::thread::id caller = std::this_thread::get_id();
-  ForEach(parallelFor, views.size(),
-    [&](std::size_t v)
-    {
-      maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options);
-      ++done;
-      if (std::this_thread::get_id() == caller)
-      {
-        progress(static_cast<double>(done) / views.size());
-      }
-    });
-  progress(1);
+  WatchedFor(views.size(), parallelFor, progress,
+    [&](std::size_t v, const StopFlag& stop)
+    { maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options, stop); });
   return maps;
 }
 

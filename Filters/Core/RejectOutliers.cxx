@@ -3,10 +3,10 @@
 
 #include "Error.h"
 #include "FeatureCloud.h"
-#include "ForEach.h"
 #include "OverlappingViews.h"
 #include "ViewFreespace.h"
 #include "ViolatedTriangles.h"
+#include "WatchedFor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -238,14 +238,14 @@ std::vector<char> OfFeatures(
 
 std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
-  const ParallelFor& parallelFor)
+  const ParallelFor& parallelFor, const Progress& progress)
 {
   options.Check();
   const bool asksOthers = options.seeThroughViews > 0 || options.violatingFeatures > 0;
   std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
   Flags supported(maps.size()), accepted(maps.size());
-  ForEach(parallelFor, maps.size(),
-    [&](std::size_t v)
+  WatchedFor(maps.size(), parallelFor, progress.Part(0.0, 0.5),
+    [&](std::size_t v, const StopFlag&)
     {
       freespaces[v] = asksOthers ? std::make_unique<ViewFreespace>(maps[v]) : nullptr;
       supported[v] = SupportedPoints(maps[v], options);
@@ -254,8 +254,8 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
   const auto overlapping =
     options.seeThroughViews > 0 ? OverlappingViews(maps) : std::vector<std::vector<int>>();
-  ForEach(parallelFor, maps.size(),
-    [&](std::size_t v)
+  WatchedFor(maps.size(), parallelFor, progress.Part(0.5, 1.0),
+    [&](std::size_t v, const StopFlag& stop)
     {
       std::vector<char> passed = supported[v], behind(maps[v].points.size(), 0);
       if (options.violatingFeatures > 0)
@@ -266,6 +266,7 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
       }
       for (std::size_t p = 0; p < passed.size(); ++p)
       {
+        ThrowIfStopped(stop);
         passed[p] = passed[p] && !behind[p] &&
           (options.seeThroughViews == 0 ||
             !IsSeenThrough(maps[v].points[p], overlapping[v], freespaces, maps, options));
@@ -277,10 +278,10 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
 
 std::vector<View> RejectOutliers(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
-  const ParallelFor& parallelFor)
+  const ParallelFor& parallelFor, const Progress& progress)
 {
   const std::vector<std::vector<char>> accepted =
-    AcceptedFeatures(views, maps, options, parallelFor);
+    AcceptedFeatures(views, maps, options, parallelFor, progress);
   std::vector<View> kept = views;
   for (std::size_t v = 0; v < views.size(); ++v)
   {

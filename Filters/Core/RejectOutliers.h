@@ -3,6 +3,7 @@
 #define freespace_RejectOutliers_h
 
 #include "ParallelFor.h"
+#include "Progress.h"
 #include "View.h"
 
 namespace freespace
@@ -48,12 +49,12 @@ struct RejectOutliersOptions
 /// Features that are in no triangle count as outliers.
 std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
-  const ParallelFor& parallelFor = SerialFor);
+  const ParallelFor& parallelFor = SerialFor, const Progress& progress = Progress());
 
 /// The views with their accepted features only. A view that would keep fewer than three keeps all.
 std::vector<View> RejectOutliers(const std::vector<View>& views,
   const std::vector<DisparityMap>& maps, const RejectOutliersOptions& options,
-  const ParallelFor& parallelFor = SerialFor);
+  const ParallelFor& parallelFor = SerialFor, const Progress& progress = Progress());
 
 }
 

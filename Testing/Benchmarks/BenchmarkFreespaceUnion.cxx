@@ -15,6 +15,7 @@
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkFreespaceUnion.h"
 
+#include <vtkCommand.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>

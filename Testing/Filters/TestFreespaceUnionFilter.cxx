@@ -29,6 +29,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
 
 using namespace freespace;
 
@@ -44,6 +45,47 @@ vtkSmartPointer<vtkMultiBlockDataSet> MakeMaps(unsigned int seed, int count)
   }
   return blocks;
 }
+
+// Watches an algorithm's progress, and stops it when that has come to a value.
+class ProgressWatch
+{
+public:
+  ProgressWatch(vtkAlgorithm* algorithm, double stopAt)
+    : Algorithm(algorithm)
+    , StopAt(stopAt)
+  {
+    this->Tag = algorithm->AddObserver(vtkCommand::ProgressEvent, this, &ProgressWatch::See);
+  }
+  ~ProgressWatch() { this->Algorithm->RemoveObserver(this->Tag); }
+
+  double Last = 0, Greatest = 0;
+  int Steps = 0, After = 0;
+  bool IsMonotone = true;
+  std::function<void()> AtStop;
+
+private:
+  void See(vtkObject*, unsigned long, void* data)
+  {
+    const double value = *static_cast<double*>(data);
+    this->IsMonotone = this->IsMonotone && value >= this->Last;
+    this->Greatest = std::max(this->Greatest, value - this->Last);
+    this->Steps += value > this->Last;
+    this->After += this->Algorithm->GetAbortExecute() != 0 && value < 1;
+    this->Last = value;
+    if (value >= this->StopAt)
+    {
+      this->Algorithm->SetAbortExecute(1);
+      if (this->AtStop)
+      {
+        this->AtStop();
+      }
+    }
+  }
+
+  vtkAlgorithm* Algorithm;
+  double StopAt;
+  unsigned long Tag;
+};
 
 // Counts errors and keeps them off the terminal.
 class Errors : public vtkCommand
@@ -266,6 +308,63 @@ TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
   contour->SharpEdgesOn();
   contour->Update();
   EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), seen);
+}
+
+TEST(vtkBisectionContourFilter, StopsAtOnce)
+{
+  class CountingSphere : public vtkSphere
+  {
+  public:
+    static CountingSphere* New() { return new CountingSphere; }
+    using vtkSphere::EvaluateFunction;
+    double EvaluateFunction(double x[3]) override
+    {
+      ++this->Calls;
+      return this->vtkSphere::EvaluateFunction(x);
+    }
+    int Calls = 0;
+  };
+  vtkNew<CountingSphere> sphere;
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(sphere);
+  contour->SetBounds(-1, 1, -1, 1, -1, 1);
+  contour->SetCells(100);
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 1000);
+  const int all = sphere->Calls;
+
+  for (const double when : { 0.01, 0.4 })
+  {
+    ProgressWatch progress(contour, when);
+    int before = 0;
+    progress.AtStop = [&] { before = sphere->Calls; };
+    sphere->Calls = 0;
+    contour->Modified();
+    contour->Update();
+    EXPECT_GE(progress.Last, when);
+    EXPECT_LT(before, all);
+    EXPECT_EQ(sphere->Calls, before);
+    EXPECT_EQ(progress.After, 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetAbortExecute(0);
+  }
+}
+
+TEST(vtkBisectionContourFilter, ProgressesSmoothly)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(300);
+  contour->SharpEdgesOn();
+  ProgressWatch progress(contour, 2.0);
+  contour->Update();
+  EXPECT_GT(progress.Steps, 30);
+  EXPECT_TRUE(progress.IsMonotone);
+  EXPECT_LT(progress.Greatest, 0.1);
+  EXPECT_EQ(progress.Last, 1.0);
 }
 
 TEST(vtkAppendPiecesFilter, PiecesTogetherAreTheWhole)
