@@ -327,6 +327,46 @@ BENCHMARK(ContourGrowth)
   ->Iterations(1)
   ->Unit(benchmark::kSecond);
 
+// From the wish to stop to the empty output, at several places on the way.
+void ContourAbort(benchmark::State& state)
+{
+  Blocks();
+  double longest = 0;
+  for (auto _ : state)
+  {
+    for (double when = 0.02; when < 1; when += 0.08)
+    {
+      vtkNew<vtkBisectionContourFilter> contour;
+      contour->SetImplicitFunction(Blocks().phi);
+      contour->SetCells(1024);
+      std::chrono::steady_clock::time_point asked;
+      struct Stopper : vtkCommand
+      {
+        double when;
+        std::chrono::steady_clock::time_point* asked;
+        void Execute(vtkObject* caller, unsigned long, void* fraction) override
+        {
+          auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+          if (*static_cast<double*>(fraction) >= this->when && !algorithm->GetAbortExecute())
+          {
+            *this->asked = std::chrono::steady_clock::now();
+            algorithm->SetAbortExecute(1);
+          }
+        }
+      };
+      auto stopper = vtkSmartPointer<Stopper>::Take(new Stopper);
+      stopper->when = when;
+      stopper->asked = &asked;
+      contour->AddObserver(vtkCommand::ProgressEvent, stopper);
+      contour->Update();
+      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - asked;
+      longest = std::max(longest, taken.count());
+    }
+  }
+  state.counters["longest_ms"] = 1e3 * longest;
+}
+BENCHMARK(ContourAbort)->Iterations(1)->Unit(benchmark::kSecond);
+
 void ContourThreads(benchmark::State& state)
 {
   Blocks();
