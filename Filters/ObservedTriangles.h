@@ -2,6 +2,8 @@
 #ifndef freespace_ObservedTriangles_h
 #define freespace_ObservedTriangles_h
 
+#include "vtkFreespaceFiltersModule.h"
+
 class vtkPolyData;
 
 namespace freespace
@@ -9,7 +11,7 @@ namespace freespace
 
 /// Drops all triangles of a contour but those of feature triangles (cell array Kind), and the points
 /// that only they had. A surface without that array is left as it is.
-void KeepObserved(vtkPolyData* surface);
+VTKFREESPACEFILTERS_EXPORT void KeepObserved(vtkPolyData* surface);
 
 }
 

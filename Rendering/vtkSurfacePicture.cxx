@@ -90,17 +90,21 @@ bool HasColours(vtkDataSetAttributes* attributes)
   return colours && colours->GetNumberOfComponents() >= 3;
 }
 
-// Obliquely from above, as near as lets every point in, with a small margin. A point at (x, y, z)
+// From that direction, as near as lets every point in, with a small margin. A point at (x, y, z)
 // right, above and in front of the middle is seen by a camera at (a, b, -d) where |x - a| <= tanX
 // (z + d) and |y - b| <= tanY (z + d): four half-spaces, whose extremes over all points are enough.
-void LookAtWhole(vtkPolyData* surface, const int size[2], vtkCamera* camera)
+void LookAtWhole(
+  vtkPolyData* surface, double azimuth, double elevation, const int size[2], vtkCamera* camera)
 {
   const double margin = 1.04;
   const double halfAngle = vtkMath::RadiansFromDegrees(15.0);
   const double tanY = std::tan(halfAngle) / margin;
   const double tanX = tanY * size[0] / size[1];
-  const Eigen::Vector3d forward = Eigen::Vector3d(0.45, 0.70, -0.55).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const double around = vtkMath::RadiansFromDegrees(azimuth);
+  const double above = vtkMath::RadiansFromDegrees(elevation);
+  const Eigen::Vector3d right(-std::sin(around), std::cos(around), 0.0); // also straight from above
+  const Eigen::Vector3d forward(
+    -std::cos(above) * std::cos(around), -std::cos(above) * std::sin(around), -std::sin(above));
   const Eigen::Vector3d up = right.cross(forward);
   Eigen::Vector4d most = Eigen::Vector4d::Constant(-std::numeric_limits<double>::infinity());
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
@@ -277,6 +281,11 @@ int vtkSurfacePicture::RequestData(
     vtkErrorMacro("There is no surface to make a picture of.");
     return 0;
   }
+  if (!std::isfinite(this->Azimuth) || !std::isfinite(this->Elevation))
+  {
+    vtkErrorMacro("Azimuth and elevation of a picture must be finite.");
+    return 0;
+  }
   if (width < 1 || height < 1 || std::max(width, height) > LargestWindow)
   {
     vtkErrorMacro("A picture of " << width << "x" << height << " pixels cannot be made.");
@@ -313,7 +322,7 @@ int vtkSurfacePicture::RequestData(
   }
   else
   {
-    LookAtWhole(surface, this->Size, camera);
+    LookAtWhole(surface, this->Azimuth, this->Elevation, this->Size, camera);
   }
   stage.renderer->ResetCameraClippingRange();
   stage.window->Render();
@@ -373,6 +382,8 @@ void vtkSurfacePicture::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "View: " << (this->Shown->view ? "calibrated" : "default") << "\n";
   os << indent << "Size: " << this->Size[0] << " " << this->Size[1] << "\n";
+  os << indent << "Azimuth: " << this->Azimuth << "\n";
+  os << indent << "Elevation: " << this->Elevation << "\n";
   os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "Background: " << this->Background[0] << " " << this->Background[1] << " "
      << this->Background[2] << "\n";

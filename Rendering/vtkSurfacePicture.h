@@ -10,7 +10,7 @@
  * vtkViewDependentTextureMapper, is shown as it is, without lights.
  *
  * SetView or SetViewBlock choose a calibrated camera (see vtkCalibratedCamera) and its image size;
- * without one the surface is seen whole and obliquely from above, +z up, in a picture of Size.
+ * without one the surface is seen whole from Azimuth and Elevation, +z up, in a picture of Size.
  * Each pixel is the mean of Samples x Samples rays.
  *
  * The window lives on between updates: a second picture of the same surface costs little. An empty
@@ -57,6 +57,17 @@ public:
 
   ///@{
   /**
+   * Where a picture without a view is taken from, in degrees: the azimuth from +x towards +y around the
+   * surface, the elevation above the plane of x and y, -90 to 90. Defaults -123 and 33: obliquely from above.
+   */
+  vtkSetMacro(Azimuth, double);
+  vtkGetMacro(Azimuth, double);
+  vtkSetClampMacro(Elevation, double, -90.0, 90.0);
+  vtkGetMacro(Elevation, double);
+  ///@}
+
+  ///@{
+  /**
    * Side of the square of rays whose mean makes a pixel, 1 to 8. Default 2. It is lowered where the
    * picture would be larger than 8192 pixels before the mean is taken.
    */
@@ -97,6 +108,8 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int Size[2] = { 1280, 960 };
+  double Azimuth = -123.0;
+  double Elevation = 33.0;
   int Samples = 2;
   double Background[3] = { 1.0, 1.0, 1.0 };
   vtkSmartPointer<vtkPolyDataMapper> Mapper;

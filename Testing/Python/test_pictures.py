@@ -221,6 +221,60 @@ class TestView(WithScene):
         self.fails_to_view('locked', at=('--turntable', '3'), output='locked')
 
 
+class TestRender(WithScene):
+    def render(self, *options, mesh='mesh.ply'):
+        self.succeed('render', mesh, '-o', 'out.png', *options)
+        return picture(self.folder / 'out.png')
+
+    def test_size(self):
+        self.assertEqual(self.render().shape, (960, 1280, 3))
+        self.assertEqual(self.render('--size', '300x200').shape, (200, 300, 3))
+
+    def test_viewpoint(self):
+        size = ('--size', '240x180')
+        usual = self.render(*size)
+        np.testing.assert_array_equal(self.render(*size, '--azimuth', 237, '--elevation', 33), usual)
+        for options in (('--azimuth', 30), ('--elevation', 80), ('--elevation', -20)):
+            with self.subTest(options=options):
+                self.assertGreater(np.abs(self.render(*size, *options) - usual).mean(), 4)
+
+    def test_between_the_cameras(self):
+        seen = self.render('--scene', 'scene.json')
+        self.assertEqual(seen.shape, (756, 1134, 3), "the first camera's size")
+        self.assertLess((seen == 255).all(axis=2).mean(), 0.5, 'the surface fills the picture')
+        self.assertGreater(np.abs(self.render('--scene', 'scene.json', '--view', 'cluster1_c') - seen).mean(), 2)
+
+    def test_picture_of_a_reconstruction_is_from_between_the_cameras(self):
+        self.succeed('reconstruct', 'scene.json', '-o', 'whole.ply', '--cells', 40, '--picture', 'whole.png')
+        seen = picture(self.folder / 'whole.png')
+        self.assertEqual(seen.shape, (756, 1134, 3))
+        self.assertLess((seen == 255).all(axis=2).mean(), 0.5)
+
+    def test_observed_leaves_out_what_was_not_seen(self):
+        self.succeed('contour', 'maps.vtm', '-o', 'mesh.vtp', '--cells', 40)
+        view = ('--scene', 'scene.json', '--view', 'cluster1_c')
+        whole, seen = self.render(*view, mesh='mesh.vtp'), self.render(*view, '--observed', mesh='mesh.vtp')
+        np.testing.assert_array_equal(whole, self.render(*view))
+        self.assertGreater(np.abs(whole - seen).mean(), 1)
+        self.fails('mesh.ply', 'render', 'mesh.ply', '-o', 'out2.png', '--observed')
+
+    def test_options_that_cannot_be(self):
+        for options in (('--size', '0x5'), ('--size', '10'), ('--size', '10x10x10'), ('--size', '9999x10'),
+                        ('--size', 'x'), ('--azimuth', 'x'), ('--elevation', '91'),
+                        ('--size', '10x10', '--scene', 'scene.json'), ('--azimuth', '3', '--view', 'c')):
+            with self.subTest(options=options):
+                self.fails(options[0], 'render', 'mesh.ply', '-o', 'out.png', *options)
+        self.fails('Azimuth', 'render', 'mesh.ply', '-o', 'out.png', '--azimuth', 'nan')
+        self.fails('--view', 'render', 'mesh.ply', '-o', 'out.png', '--view', 'cluster1_c.jpg')
+
+    def test_output_that_cannot_be(self):
+        (self.folder / 'folder.png').mkdir()
+        write_triangle(self.folder / 'points.ply', faces='')
+        for output in ('out.jpg', 'nowhere/out.png', 'folder.png'):
+            self.fails(output, 'render', 'mesh.ply', '-o', output)
+        self.fails('points.ply', 'render', 'points.ply', '-o', 'out.png')
+
+
 class TestTexture(WithScene):
     def test_glb_has_geometry_and_texture(self):
         self.succeed('texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'model.glb', '--largest', 512)

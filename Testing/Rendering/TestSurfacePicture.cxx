@@ -120,6 +120,47 @@ TEST(SurfacePicture, DefaultViewShowsAllAndFillsThePicture)
   ExpectBaseline(picture->GetOutput(), "SurfacePictureDefault");
 }
 
+TEST(SurfacePicture, LooksFromWhereItIsTold)
+{
+  // A slab: wide along x, narrow along y, flat along z.
+  vtkNew<vtkCubeSource> slab;
+  slab->SetXLength(4);
+  slab->SetYLength(2);
+  slab->SetZLength(0.5);
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputConnection(slab->GetOutputPort());
+  picture->SetSize(200, 200);
+  const auto ratio = [&](double azimuth, double elevation)
+  {
+    picture->SetAzimuth(azimuth);
+    picture->SetElevation(elevation);
+    picture->Update();
+    int box[4] = { 200, 0, 200, 0 };
+    for (int row = 0; row < 200; ++row)
+    {
+      for (int column = 0; column < 200; ++column)
+      {
+        if (!IsWhite(picture->GetOutput(), column, row))
+        {
+          box[0] = std::min(box[0], column);
+          box[1] = std::max(box[1], column);
+          box[2] = std::min(box[2], row);
+          box[3] = std::max(box[3], row);
+        }
+      }
+    }
+    return double(box[1] - box[0]) / (box[3] - box[2]);
+  };
+  // The near face alone is seen, and perspective leaves its sides in proportion.
+  EXPECT_NEAR(ratio(0, 0), 2 / 0.5, 0.2) << "from +x: y across, z up";
+  EXPECT_NEAR(ratio(-90, 0), 4 / 0.5, 0.5) << "from -y: x across, z up";
+  EXPECT_NEAR(ratio(-90, 90), 4 / 2.0, 0.1) << "from above: x across, y up";
+  EXPECT_NEAR(ratio(0, 90), 2 / 4.0, 0.05) << "from above: y across";
+  EXPECT_NEAR(ratio(180, -90), 2 / 4.0, 0.05) << "from below";
+  picture->SetElevation(95);
+  EXPECT_EQ(picture->GetElevation(), 90);
+}
+
 TEST(SurfacePicture, GoesBackToTheDefaultView)
 {
   vtkNew<vtkSurfacePicture> picture;

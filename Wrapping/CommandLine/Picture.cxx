@@ -2,8 +2,10 @@
 #include "Picture.h"
 
 #include "Error.h"
+#include "NovelCameras.h"
 #include "Session.h"
 #include "Stages.h"
+#include "ViewBlocks.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -23,12 +25,15 @@ void CheckPictureName(const std::string& fileName)
   }
 }
 
-void WritePicture(
-  Session& session, vtkPolyData* surface, vtkPolyData* view, const std::string& fileName)
+void WritePicture(Session& session, vtkPolyData* surface, vtkPolyData* view,
+  const PictureLook& look, const std::string& fileName)
 {
   CheckPictureName(fileName);
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputDataObject(surface);
+  picture->SetSize(look.size[0], look.size[1]);
+  picture->SetAzimuth(look.azimuth);
+  picture->SetElevation(look.elevation);
   if (view)
   {
     picture->SetViewBlock(view);
@@ -37,6 +42,19 @@ void WritePicture(
   picture->WritePNG(fileName);
   session.ThrowIfFailed();
   session.Tell("wrote " + fileName);
+}
+
+vtkSmartPointer<vtkPolyData> ViewBetween(
+  const std::vector<Camera>& cameras, const std::vector<Eigen::Vector3d>& points)
+{
+  const std::vector<Camera> novel = NovelCameras(cameras, MedianPoint(points), 1);
+  if (novel.empty())
+  {
+    return nullptr;
+  }
+  View view;
+  view.camera = novel[0];
+  return BlockFromView(view);
 }
 
 }

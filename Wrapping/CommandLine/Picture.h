@@ -2,7 +2,13 @@
 #ifndef freespace_Picture_h
 #define freespace_Picture_h
 
+#include "Camera.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -14,10 +20,24 @@ class Session;
 /// Throws Error unless a picture can be written under that name.
 void CheckPictureName(const std::string& fileName);
 
-/// Writes a picture of a surface as PNG, from the camera of a view's block or, where that is nullptr,
-/// obliquely from above. Throws Error when that fails.
-void WritePicture(
-  Session& session, vtkPolyData* surface, vtkPolyData* view, const std::string& fileName);
+/// How a picture is taken where no camera is given; as vtkSurfacePicture.
+struct PictureLook
+{
+  std::array<int, 2> size = { 1280, 960 }; ///< pixels
+  double azimuth = -123;                   ///< degrees
+  double elevation = 33;
+};
+
+/// Writes a picture of a surface as PNG, from the camera of a view's block or, where that is nullptr, as
+/// `look` tells. Throws Error when that fails.
+void WritePicture(Session& session, vtkPolyData* surface, vtkPolyData* view,
+  const PictureLook& look, const std::string& fileName);
+
+/// The block of a viewpoint between cameras (NovelCameras.h), from which a scene shows itself well whatever
+/// way its axes go: much of it was seen from there, and what no camera saw lies at the borders or
+/// behind. nullptr without cameras.
+vtkSmartPointer<vtkPolyData> ViewBetween(
+  const std::vector<Camera>& cameras, const std::vector<Eigen::Vector3d>& points);
 
 }
 

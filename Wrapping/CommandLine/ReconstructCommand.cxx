@@ -7,6 +7,7 @@
 #include "Session.h"
 #include "SparseStage.h"
 #include "Stages.h"
+#include "ViewBlocks.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
@@ -43,7 +44,9 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("-o,--output", settings.output, "The surface to write (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("MESH.ply");
-  command.add_option("--picture", settings.picture, "Write a picture of the surface, too")
+  command
+    .add_option("--picture", settings.picture,
+      "Write a picture of the surface, too, from a viewpoint between the cameras")
     ->type_name("OUT.png");
   settings.stereo.AddOptions(command);
   settings.sparse.AddOptions(command);
@@ -69,6 +72,19 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
   return settings.stereo.Run(session, settings.scene);
 }
 
+// From between the views, looking at the middle of the features.
+vtkSmartPointer<vtkPolyData> Viewpoint(vtkMultiBlockDataSet* features)
+{
+  std::vector<Camera> cameras;
+  std::vector<Eigen::Vector3d> points;
+  for (const View& view : ViewsFromBlocks(features))
+  {
+    cameras.push_back(view.camera);
+    points.insert(points.end(), view.points.begin(), view.points.end());
+  }
+  return ViewBetween(cameras, points);
+}
+
 void Reconstruct(Session& session, const Settings& settings)
 {
   CheckSurfaceName(settings.output);
@@ -82,7 +98,7 @@ void Reconstruct(Session& session, const Settings& settings)
   WriteSurface(session, surface, settings.output);
   if (!settings.picture.empty())
   {
-    WritePicture(session, surface, nullptr, settings.picture);
+    WritePicture(session, surface, Viewpoint(features), PictureLook(), settings.picture);
   }
 }
 
