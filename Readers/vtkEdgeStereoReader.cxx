@@ -3,6 +3,8 @@
 
 #include "AlgorithmProgress.h"
 #include "EdgeStereo.h"
+#include "Error.h"
+#include "EveryImage.h"
 #include "ProposeClusters.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
@@ -76,9 +78,10 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
 
 // As many clusters at a time as there are threads: this bounds the memory and lets the calling
 // thread report progress in between. The first cluster in the scene's order that fails decides the
-// error.
+// error; those after the needed ones may fail, and then give no view.
 std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
-  const freespace::EdgeStereoOptions& options, const freespace::Progress& progress)
+  std::size_t needed, const freespace::EdgeStereoOptions& options,
+  const freespace::Progress& progress)
 {
   const std::vector<freespace::CalibratedImage> images = freespace::ReadSceneImages(scene);
   const SingleThreadedOpenCV guard;
@@ -101,6 +104,10 @@ std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
             views[first + i] =
               freespace::FindFeatures(scene, images, scene.clusters[first + i], options);
           }
+          catch (const freespace::Error&)
+          {
+            errors[i] = first + i < needed ? std::current_exception() : nullptr;
+          }
           catch (...)
           {
             errors[i] = std::current_exception();
@@ -116,6 +123,8 @@ std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
     }
   }
   progress(1.0);
+  const auto isEmpty = [](const freespace::EdgeView& view) { return view.points.empty(); };
+  views.erase(std::remove_if(views.begin(), views.end(), isEmpty), views.end());
   return views;
 }
 
@@ -166,11 +175,17 @@ int vtkEdgeStereoReader::RequestData(
       options.matching.minimumDisparity = 1 / this->MaximumDepth;
     }
     options.Check();
-    const freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName);
+    freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName);
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
+    const std::size_t needed = scene.clusters.size();
+    if (this->EveryImage)
+    {
+      const auto others = freespace::ClustersOfEveryImage(scene.clusters);
+      scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
+    }
     const std::vector<freespace::EdgeView> views =
-      FindAllFeatures(scene, options, freespace::AlgorithmProgress(this));
+      FindAllFeatures(scene, needed, options, freespace::AlgorithmProgress(this));
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,
@@ -197,4 +212,5 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
   os << indent << "ColorTolerance: " << this->ColorTolerance << "\n";
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
+  os << indent << "EveryImage: " << (this->EveryImage ? "On" : "Off") << "\n";
 }

@@ -7,12 +7,16 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkVariant.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -146,6 +150,45 @@ TEST(EdgeStereoReader, SameForAnyNumberOfThreads)
           ExpectSamePoints(Block(first, i), Block(reader->GetOutput(), i));
         }
       });
+  }
+}
+
+TEST(EdgeStereoReader, EveryImageMakesAView)
+{
+  const SquaresScene scene(2); // of the same images
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  reader->Update();
+  vtkNew<vtkMultiBlockDataSet> middles;
+  middles->DeepCopy(reader->GetOutput());
+  reader->EveryImageOn();
+  reader->Update();
+  vtkMultiBlockDataSet* views = reader->GetOutput();
+  ASSERT_EQ(views->GetNumberOfBlocks(), 4u);
+  const char* names[4] = { "cluster0", "cluster1", "cluster0_l", "cluster0_r" };
+  const char* files[4] = { "c.png", "c.png", "l.png", "r.png" };
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    EXPECT_STREQ(views->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()), names[i]);
+    EXPECT_EQ(Block(views, i)->GetFieldData()->GetAbstractArray("ImageFile")->GetVariantValue(0),
+      files[i]);
+    EXPECT_GT(Block(views, i)->GetNumberOfPoints(), 800);
+  }
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    ExpectSamePoints(Block(middles, i), Block(views, i));
+  }
+  // The plane that the squares are painted on, as the middle view has it.
+  double bounds[6];
+  Block(views, 0)->GetBounds(bounds);
+  for (unsigned int i = 2; i < 4; ++i)
+  {
+    for (vtkIdType p = 0; p < Block(views, i)->GetNumberOfPoints(); ++p)
+    {
+      const double z = Block(views, i)->GetPoint(p)[2];
+      ASSERT_GT(z, bounds[4] - 0.05);
+      ASSERT_LT(z, bounds[5] + 0.05);
+    }
   }
 }
 

@@ -64,6 +64,11 @@ void StereoStage::AddOptions(CLI::App& command)
     ->check(NotNegative())
     ->capture_default_str()
     ->group("Stereo");
+  command
+    .add_flag("--every-image", this->EveryImage,
+      "Every image of a cluster is a view, not its middle one alone: sees more, and takes about "
+      "eight times as long")
+    ->group("Stereo");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
@@ -73,6 +78,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetFileName(scene);
   stereo->SetMinimumDepth(this->MinimumDepth);
   stereo->SetMaximumDepth(this->MaximumDepth);
+  stereo->SetEveryImage(this->EveryImage);
   session.Run(stereo, "stereo");
   vtkSmartPointer<vtkMultiBlockDataSet> features = stereo->GetOutput();
   session.Tell("stereo: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +

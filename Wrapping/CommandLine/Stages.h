@@ -30,6 +30,7 @@ public:
 private:
   double MinimumDepth = 0;
   double MaximumDepth = 0;
+  bool EveryImage = false;
 };
 
 /// features -> disparity maps: vtkFeatureSupportFilter, vtkDelaunayDisparityFilter.
