@@ -6,11 +6,13 @@
 #include "CubeCases.h"
 #include "Error.h"
 #include "SharpFeature.h"
+#include "TriangleIntersections.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -99,11 +101,39 @@ struct Region
   std::vector<ContourBlock> blocks;
 };
 
-/// A vertex within a cell, about which the cell's triangles are a fan.
+/// Which cell a sharp vertex lies in: its own, or one beside it, where triangles may be in the way.
+enum class Reach
+{
+  Own,
+  Empty,
+  Surface
+};
+
+/// A vertex of a cell, about which the cell's triangles are a fan.
 struct SharpVertex
 {
   std::size_t cell; ///< place in the block's cells
   Vector3d position;
+  Vector3d fallback; ///< within the cell
+  Vector3d edge;     ///< of a corner: where it would be otherwise
+  Reach edgeReach;
+  bool isCorner;
+  bool isBorrowed; ///< from a plane of another cell
+  Reach reach;
+};
+
+/// A sharp feature that the planes of a cell show in another one.
+struct SharpOffer
+{
+  LatticeIndex cell; ///< of the lattice; in a block's own list, of the block
+  SharpFeature feature;
+};
+
+/// A cell's face on which two corners in matter, opposite to each other, hang together.
+struct JoinedFace
+{
+  std::size_t cell; ///< place in the block's cells
+  int face;
 };
 
 /// Where a block's vertices and triangles come in the mesh. The vertices are those of the block, then
@@ -114,7 +144,11 @@ struct BlockPlace
   bool isOwn;
   std::int32_t firstVertex;
   std::size_t firstTriangle;
+  std::vector<JoinedFace> joined;   ///< at most one for a cell
   std::vector<SharpVertex> sharp;   ///< in the order of their cells
+  std::vector<JoinedFace> bridges;  ///< over which sharp vertices are joined, though not through it
+  std::vector<SharpOffer> offers;   ///< to any block's cells
+  std::vector<SharpOffer> received; ///< to the block's cells
   std::vector<std::int32_t> vertex; ///< of another piece's block: place in the mesh, or -1
 
   std::size_t NumberOfVertices() const { return this->block->keys.size() + this->sharp.size(); }
@@ -157,6 +191,8 @@ public:
     , Options(options)
     , IsSingle(SinglePrecisionSuffices(bounds, options))
     , Crossing{ options.tolerance, options.clearance, options.exact, options.sharp }
+    , SharpCosine(std::cos(options.sharpAngle * M_PI / 180.0))
+    , HalfSharpCosine(std::cos(options.sharpAngle * M_PI / 360.0))
   {
   }
 
@@ -170,7 +206,7 @@ public:
     this->FindRegions(progress.Part(0.0, 0.05));
     this->FindBlocks(
       progress.Part(0.05, 0.8), isThreadSafe ? parallelFor : SerialFor, isThreadSafe);
-    this->PlaceBlocks(progress.Part(0.8, 0.9), parallelFor);
+    this->PlaceBlocks(progress.Part(0.8, 0.9), isThreadSafe ? parallelFor : SerialFor);
     const ContourArrays arrays = allocate({ this->Vertices, this->OwnVertices, this->Triangles });
     this->Write(arrays, progress.Part(0.9, 1.0), parallelFor);
     progress(1.0);
@@ -342,14 +378,13 @@ private:
       for (const ContourBlock& block : region.blocks)
       {
         this->Index[PlaceKey(block.at)] = this->Places.size();
-        this->Places.push_back({ &block, region.isOwn, 0, 0, {}, {} });
+        this->Places.push_back({ &block, region.isOwn, 0, 0, {}, {}, {}, {}, {}, {} });
       }
     }
     this->Layers.push_back({ this->Regions.size(), this->Places.size() });
     if (this->Options.sharp)
     {
-      this->ForEachPlace(
-        progress, parallelFor, [this](std::size_t i) { this->FindSharpVertices(this->Places[i]); });
+      this->FindSharpEdges(progress, parallelFor);
     }
     for (BlockPlace& place : this->Places)
     {
@@ -360,6 +395,12 @@ private:
         // A fan about a vertex of its own has two triangles more.
         this->Vertices += place.NumberOfVertices();
         this->Triangles += place.block->NumberOfTriangles() + 2 * place.sharp.size();
+        for (const JoinedFace& joined : place.joined)
+        {
+          const int matter = place.block->cases[joined.cell];
+          this->Triangles += CubeCases::Get().NumberOfTriangles(matter, joined.face) -
+            CubeCases::Get().NumberOfTriangles(matter);
+        }
       }
       this->CheckSize();
     }
@@ -398,16 +439,104 @@ private:
     }
   }
 
+  /// Gives cells that sharp edges and corners pass a vertex there, and decides which of the vertices
+  /// are joined.
+  void FindSharpEdges(const Progress& progress, const ParallelFor& parallelFor)
+  {
+    this->ForEachPlace(progress.Part(0.0, 0.1), parallelFor,
+      [this](std::size_t i) { this->JoinFaces(this->Places[i]); });
+    this->ForEachPlace(progress.Part(0.1, 0.5), parallelFor,
+      [this](std::size_t i) { this->FindSharpVertices(this->Places[i]); });
+    this->HandOverOffers();
+    this->ForEachPlace(progress.Part(0.5, 0.6), parallelFor,
+      [this](std::size_t i) { this->TakeOffers(this->Places[i]); });
+    this->KeepCornersApart();
+    this->MoveMeetingVerticesBack(progress.Part(0.6, 0.8), parallelFor);
+    this->FindBridges(progress.Part(0.8, 1.0), parallelFor);
+  }
+
+  /// Joins the matter across faces that a wedge passes along their diagonal. The lattice alone parts
+  /// it there; the field knows better. Both cells of a face come to the same answer.
+  void JoinFaces(BlockPlace& place) const
+  {
+    const CubeCases& cases = CubeCases::Get();
+    const ContourBlock& block = *place.block;
+    for (std::size_t c = 0; c < block.cells.size(); ++c)
+    {
+      const int face = cases.OnlyJoinableFace(block.cases[c]);
+      if (face < 0)
+      {
+        continue;
+      }
+      LatticeIndex low = this->LatticeCell(block, c), beside = low;
+      beside[face >> 1] += (face & 1) ? 1 : -1;
+      low[face >> 1] += face & 1;
+      Vector3d middle = this->Lattice.Point(low[0], low[1], low[2]);
+      middle += 0.5 * this->Lattice.spacing * (Vector3d::Ones() - Vector3d::Unit(face >> 1));
+      if (cases.OnlyJoinableFace(this->CaseOf(beside)) == (face ^ 1) &&
+        !this->Field.IsFree(middle, this->ScopeAround(block)))
+      {
+        place.joined.push_back({ c, face });
+      }
+    }
+  }
+
+  static const std::vector<CubeCases::Loop>& LoopsOf(const BlockPlace& place, std::size_t c)
+  {
+    int face = CubeCases::NoFace;
+    for (const JoinedFace& joined : place.joined)
+    {
+      face = joined.cell == c ? joined.face : face;
+    }
+    return CubeCases::Get().Loops(place.block->cases[c], face);
+  }
+
+  /// Where cells found the same corner beyond themselves, leaves it to the one that needs no planes of
+  /// others, or else to the first.
+  void KeepCornersApart()
+  {
+    std::vector<SharpVertex*> corners;
+    for (BlockPlace& place : this->Places)
+    {
+      for (SharpVertex& vertex : place.sharp)
+      {
+        if (vertex.isCorner && vertex.reach != Reach::Own)
+        {
+          corners.push_back(&vertex);
+        }
+      }
+    }
+    std::stable_sort(corners.begin(), corners.end(),
+      [](const SharpVertex* a, const SharpVertex* b) { return a->position.x() < b->position.x(); });
+    const double reach = FeatureReach * this->Lattice.spacing;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < corners.size() && corners[i]->reach != Reach::Own &&
+           corners[j]->position.x() - corners[i]->position.x() < reach;
+           ++j)
+      {
+        if (corners[j]->reach != Reach::Own &&
+          (corners[j]->position - corners[i]->position).norm() < reach)
+        {
+          const bool isFirst = corners[i]->isBorrowed <= corners[j]->isBorrowed;
+          SharpVertex& other = *corners[isFirst ? j : i];
+          other.position = other.edge;
+          other.reach = other.edgeReach;
+          other.isCorner = false;
+        }
+      }
+    }
+  }
+
   /// Gives the block's cells that have a sharp edge or corner a vertex there.
   void FindSharpVertices(BlockPlace& place) const
   {
     const ContourBlock& block = *place.block;
-    const double sharpAngle = this->Options.sharpAngle * M_PI / 180.0;
+    FieldScope scope;
     CrossingGrid grid;
-    std::vector<SurfacePlane> planes, around;
     for (std::size_t c = 0; c < block.cells.size(); ++c)
     {
-      const auto& loops = CubeCases::Get().Loops(block.cases[c]);
+      const auto& loops = LoopsOf(place, c);
       if (loops.size() != 1)
       {
         continue;
@@ -416,27 +545,30 @@ private:
       {
         this->FillGrid(place, grid);
       }
-      const LatticeIndex cell = CellOf(block.cells[c]);
-      planes.clear();
+      std::vector<SurfacePlane> planes, around;
       for (int edge : loops[0])
       {
-        grid.Add(FirstPoint(cell, edge), edge >> 2, planes);
+        grid.Add(FirstPoint(CellOf(block.cells[c]), edge), edge >> 2, planes);
       }
-      if (planes.size() != loops[0].size() || !NormalsDiffer(planes, std::cos(sharpAngle / 2)))
+      if (planes.size() != loops[0].size() || !NormalsDiffer(planes, this->HalfSharpCosine))
       {
         continue; // most cells
       }
-      around.clear();
-      grid.AddAround(cell, around);
+      grid.AddAround(CellOf(block.cells[c]), around);
       SmoothNormals(planes, around, SmoothingRadius * this->Lattice.spacing);
-      const Vector3d low = this->CellCorner(block, cell);
-      const double room = SharpClearance * this->Lattice.spacing;
-      const AlignedBox3d inner(
-        low + Vector3d::Constant(room), low + Vector3d::Constant(this->Lattice.spacing - room));
-      Vector3d position;
-      if (FindSharpFeature(planes, std::cos(sharpAngle), inner, position))
+      SharpFeature own;
+      if (!FindSharpFeature(planes, this->SharpCosine, own))
       {
-        place.sharp.push_back({ c, position });
+        continue;
+      }
+      const LatticeIndex cell = this->LatticeCell(block, c);
+      scope = scope.views.empty() && scope.planes.empty() ? this->ScopeAround(block) : scope;
+      std::vector<SharpFeature> features = this->CornersNearby(cell, own);
+      features.push_back(own);
+      this->AddSharpVertex(place, c, features, planes, scope, true);
+      for (const SharpFeature& feature : features)
+      {
+        this->Offer(cell, feature, place.offers);
       }
     }
   }
@@ -511,6 +643,306 @@ private:
     }
   }
 
+  /// A vertex at the first of the features that is in reach and in the field.
+  void AddSharpVertex(BlockPlace& place, std::size_t c, std::vector<SharpFeature>& features,
+    const std::vector<SurfacePlane>& planes, const FieldScope& scope, bool mayTrust) const
+  {
+    const LatticeIndex cell = this->LatticeCell(*place.block, c);
+    const AlignedBox3d inner = this->CellBox(cell, -SharpClearance);
+    const auto isFree = [&](const Vector3d& point) { return this->Field.IsFree(point, scope); };
+    // What the cell's own planes show it has, if need be at the nearest place in it.
+    SharpFeature last = features.back();
+    const bool isNear = last.SlideInto(inner) || mayTrust;
+    const Vector3d middle = Clamp(isNear ? last.position : MiddleOf(planes), inner);
+    SharpVertex vertex = { c, middle, middle, middle, Reach::Own, false, false, Reach::Own };
+    bool isFound = false;
+    for (SharpFeature& feature : features)
+    {
+      Reach reach;
+      const bool isSettled = this->Settle(cell, feature, reach);
+      const bool isTrusted = mayTrust && !feature.isBorrowed && reach == Reach::Own;
+      if (!isSettled ||
+        !(isTrusted || feature.IsConfirmed(FeatureReach * this->Lattice.spacing, isFree)))
+      {
+        continue;
+      }
+      const bool isOwn = reach == Reach::Own;
+      const Vector3d position = isOwn ? Clamp(feature.position, inner) : feature.position;
+      if (!isFound)
+      {
+        vertex.position = position;
+        vertex.reach = reach;
+        vertex.isCorner = feature.IsCorner();
+        vertex.isBorrowed = feature.isBorrowed;
+        isFound = true;
+      }
+      if (!feature.IsCorner())
+      {
+        vertex.edge = position;
+        vertex.edgeReach = reach;
+        vertex.fallback = isOwn ? position : vertex.fallback;
+        break;
+      }
+    }
+    if (isFound || mayTrust)
+    {
+      place.sharp.push_back(vertex);
+    }
+  }
+
+  /// Offers a feature to the cells around that it passes: their own crossings may not show it.
+  void Offer(
+    const LatticeIndex& cell, const SharpFeature& feature, std::vector<SharpOffer>& offers) const
+  {
+    for (int n = 0; n < 27; ++n)
+    {
+      const LatticeIndex beside = Beside(cell, n);
+      SharpFeature moved = feature;
+      if (beside != cell && moved.SlideInto(this->CellBox(beside, SharpClearance)) &&
+        this->CaseOf(beside) != 0)
+      {
+        offers.push_back({ beside, feature });
+      }
+    }
+  }
+
+  static LatticeIndex Beside(const LatticeIndex& cell, int n)
+  {
+    return { cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1 };
+  }
+
+  void HandOverOffers()
+  {
+    for (BlockPlace& place : this->Places)
+    {
+      for (SharpOffer& offer : place.offers)
+      {
+        const BlockPlace* receiver = this->PlaceOf(offer.cell);
+        const_cast<BlockPlace*>(receiver)->received.push_back(std::move(offer));
+      }
+      place.offers = {};
+    }
+  }
+
+  /// Gives cells without a sharp vertex one at a feature that they were offered, and cells with an
+  /// edge a corner.
+  void TakeOffers(BlockPlace& place) const
+  {
+    if (place.received.empty())
+    {
+      return;
+    }
+    const auto cellOf = [](const SharpOffer& offer) { return ContourBlock::CellKey(offer.cell); };
+    std::stable_sort(place.received.begin(), place.received.end(),
+      [&](const SharpOffer& a, const SharpOffer& b)
+      {
+        return std::make_pair(cellOf(a), !a.feature.IsCorner()) <
+          std::make_pair(cellOf(b), !b.feature.IsCorner());
+      });
+    const FieldScope scope = this->ScopeAround(*place.block);
+    std::vector<SharpVertex> own = std::move(place.sharp);
+    place.sharp.clear();
+    std::size_t next = 0, o = 0;
+    for (std::size_t c = 0; c < place.block->cells.size(); ++c)
+    {
+      std::vector<SharpFeature> features;
+      for (; o < place.received.size() && cellOf(place.received[o]) == place.block->cells[c]; ++o)
+      {
+        features.push_back(place.received[o].feature);
+      }
+      const bool isSharp = next < own.size() && own[next].cell == c;
+      if (isSharp)
+      {
+        features.erase(
+          std::remove_if(features.begin(), features.end(),
+            [&](const SharpFeature& feature) { return own[next].isCorner || !feature.IsCorner(); }),
+          features.end());
+      }
+      const std::size_t before = place.sharp.size();
+      std::vector<SurfacePlane> planes;
+      const LatticeIndex cell = this->LatticeCell(*place.block, c);
+      if (!features.empty() && this->CollectPlanes(cell, planes))
+      {
+        const Vector3d middle = MiddleOf(planes);
+        for (SharpFeature& feature : features)
+        {
+          feature.position += feature.direction.dot(middle - feature.position) * feature.direction;
+        }
+        this->AddSharpVertex(place, c, features, planes, scope, false);
+      }
+      if (isSharp && place.sharp.size() == before)
+      {
+        place.sharp.push_back(own[next]);
+      }
+      next += isSharp;
+    }
+    place.received = {};
+  }
+
+  /// What the field leaves open where the sharp vertices of a block may lie.
+  FieldScope ScopeAround(const ContourBlock& block) const
+  {
+    const double size = ContourBlock::Size;
+    const Vector3d low = this->CellCorner(block, { -2, -2, -2 });
+    const AlignedBox3d box(low, low + Vector3d::Constant((size + 4) * this->Lattice.spacing));
+    FieldScope scope;
+    return this->Field.Classify(box, this->Field.Root(), scope) == BoxContent::Mixed
+      ? scope
+      : this->Field.Root();
+  }
+
+  LatticeIndex LatticeCell(const ContourBlock& block, std::size_t c) const
+  {
+    LatticeIndex cell = CellOf(block.cells[c]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] += ContourBlock::Size * block.at[axis];
+    }
+    return cell;
+  }
+
+  /// The block that a cell or point of the lattice belongs to; null: the surface is not near. Makes
+  /// the index one in the block.
+  const BlockPlace* PlaceOf(LatticeIndex& index) const
+  {
+    LatticeIndex at;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (index[axis] < 0)
+      {
+        return nullptr;
+      }
+      at[axis] = index[axis] / ContourBlock::Size;
+      index[axis] %= ContourBlock::Size;
+    }
+    const auto place = this->Index.find(PlaceKey(at));
+    return place == this->Index.end() ? nullptr : &this->Places[place->second];
+  }
+
+  /// Finds a cell of the lattice in its block. False where the surface does not pass.
+  bool FindCell(LatticeIndex cell, const BlockPlace*& place, std::size_t& c) const
+  {
+    place = this->PlaceOf(cell);
+    if (!place)
+    {
+      return false;
+    }
+    const auto& cells = place->block->cells;
+    const std::uint16_t wanted = ContourBlock::CellKey(cell);
+    const auto found = std::lower_bound(cells.begin(), cells.end(), wanted);
+    c = found - cells.begin();
+    return found != cells.end() && *found == wanted;
+  }
+
+  /// The case of a cell of the lattice; 0 where the surface does not pass.
+  int CaseOf(const LatticeIndex& cell) const
+  {
+    const BlockPlace* place = nullptr;
+    std::size_t c = 0;
+    return this->FindCell(cell, place, c) ? place->block->cases[c] : 0;
+  }
+
+  /// The planes of the surface in a cell of the lattice. False when they are not of one sheet.
+  bool CollectPlanes(const LatticeIndex& cell, std::vector<SurfacePlane>& planes) const
+  {
+    const BlockPlace* owner = nullptr;
+    std::size_t c = 0;
+    if (!this->FindCell(cell, owner, c) || LoopsOf(*owner, c).size() != 1)
+    {
+      return false;
+    }
+    for (int edge : LoopsOf(*owner, c)[0])
+    {
+      LatticeIndex point = FirstPoint(cell, edge);
+      owner = this->PlaceOf(point);
+      const std::size_t vertex = owner ? VertexAt(*owner->block, point, edge >> 2) : Missing;
+      if (vertex == Missing)
+      {
+        return false;
+      }
+      planes.push_back({ owner->block->Position(this->Lattice, vertex),
+        owner->block->normals[vertex].cast<double>() });
+    }
+    return true;
+  }
+
+  /// The corners where planes of the cells beside a cell end its sharp edge.
+  std::vector<SharpFeature> CornersNearby(const LatticeIndex& cell, const SharpFeature& edge) const
+  {
+    std::vector<SharpFeature> corners;
+    for (int side = 0; side < 6 && !edge.IsCorner(); ++side)
+    {
+      LatticeIndex beside = cell;
+      beside[side >> 1] += (side & 1) ? 1 : -1;
+      std::vector<SurfacePlane> planes;
+      this->CollectPlanes(beside, planes);
+      for (const SurfacePlane& plane : planes)
+      {
+        SharpFeature corner;
+        if (FindCornerOnEdge(edge, plane, this->SharpCosine, corner))
+        {
+          corners.push_back(corner);
+        }
+      }
+    }
+    return corners;
+  }
+
+  /// A cell of the lattice with (positive) or without (negative) a rim, in cells.
+  AlignedBox3d CellBox(const LatticeIndex& cell, double rim) const
+  {
+    const Vector3d low = this->Lattice.Point(cell[0], cell[1], cell[2]);
+    const double room = rim * this->Lattice.spacing;
+    return { low - Vector3d::Constant(room),
+      low + Vector3d::Constant(this->Lattice.spacing + room) };
+  }
+
+  static Vector3d Clamp(const Vector3d& point, const AlignedBox3d& box)
+  {
+    return point.cwiseMax(box.min()).cwiseMin(box.max());
+  }
+
+  static Vector3d MiddleOf(const std::vector<SurfacePlane>& planes)
+  {
+    Vector3d middle = Vector3d::Zero();
+    for (const SurfacePlane& plane : planes)
+    {
+      middle += plane.point / static_cast<double>(planes.size());
+    }
+    return middle;
+  }
+
+  /// Moves a feature of a cell into the cell, or else into the nearest cell around it that the
+  /// lattice takes for empty: a wedge may dip there without holding any of its points. An edge that
+  /// comes by in none but cells of the surface is left where it is, in one of them: there the lattice
+  /// may see the wedge in two pieces that hang together.
+  bool Settle(const LatticeIndex& cell, SharpFeature& feature, Reach& reach) const
+  {
+    reach = Reach::Own;
+    if (feature.SlideInto(this->CellBox(cell, -SharpClearance)) ||
+      feature.SlideInto(this->CellBox(cell, SharpClearance)))
+    {
+      return true;
+    }
+    double least = HUGE_VAL;
+    SharpFeature nearest = feature;
+    for (int n = 0; n < 27; ++n)
+    {
+      const LatticeIndex beside = Beside(cell, n);
+      SharpFeature moved = feature;
+      if (moved.SlideInto(this->CellBox(beside, 0.0)) &&
+        (moved.position - feature.position).norm() < least && this->CaseOf(beside) == 0)
+      {
+        least = (moved.position - feature.position).norm();
+        nearest = moved;
+      }
+    }
+    feature = nearest;
+    reach = least < HUGE_VAL ? Reach::Empty : Reach::Surface;
+    return reach == Reach::Empty ||
+      (!feature.IsCorner() && this->CellBox(cell, 1.0).contains(feature.position));
+  }
+
   static LatticeIndex CellOf(int cell)
   {
     const int size = ContourBlock::Size;
@@ -546,7 +978,7 @@ private:
       return;
     }
     this->ForEachTriangle(own,
-      [&](std::size_t, const std::array<Vertex, 3>& corners, bool)
+      [&](std::size_t, const std::array<Vertex, 3>& corners, bool, int)
       {
         for (const Vertex& corner : corners)
         {
@@ -571,13 +1003,12 @@ private:
     std::size_t vertex;
   };
 
-  /// Calls visit(triangle, its three corners, whether it is in the fan about a sharp vertex) for all
-  /// triangles of a block. In a fan, the sharp vertex is the first corner. False when a vertex is not
+  /// Calls visit(triangle, its three corners, whether it is in the fan about a sharp vertex, the face
+  /// that its two last corners share) for all triangles of a block. In a fan, the sharp vertex is the first corner. False when a vertex is not
   /// there.
   template <typename Visit>
   bool ForEachTriangle(const BlockPlace& place, Visit&& visit) const
   {
-    const CubeCases& cases = CubeCases::Get();
     const ContourBlock& block = *place.block;
     std::size_t triangle = 0, sharp = 0;
     bool whole = true;
@@ -586,7 +1017,7 @@ private:
     {
       const LatticeIndex cell = CellOf(block.cells[c]);
       const bool isSharp = sharp < place.sharp.size() && place.sharp[sharp].cell == c;
-      for (const CubeCases::Loop& loop : cases.Loops(block.cases[c]))
+      for (const CubeCases::Loop& loop : LoopsOf(place, c))
       {
         const std::size_t size = loop.size();
         for (std::size_t n = isSharp ? 0 : 2; n < size; ++n, ++triangle)
@@ -608,7 +1039,7 @@ private:
           {
             this->JoinSharp(place, sharp, CubeCases::CommonFace(from, to), corners[2]);
           }
-          visit(triangle, corners, isSharp);
+          visit(triangle, corners, isSharp, CubeCases::CommonFace(from, to));
         }
       }
       sharp += isSharp;
@@ -661,10 +1092,46 @@ private:
     {
       index %= ContourBlock::Size;
     }
-    const auto& keys = owner->block->keys;
+    return VertexAt(*owner->block, point, axis);
+  }
+
+  /// The vertex on the lattice edge from a point of a block.
+  static std::size_t VertexAt(const ContourBlock& block, const LatticeIndex& point, int axis)
+  {
+    const auto& keys = block.keys;
     const auto key = std::lower_bound(keys.begin(), keys.end(), ContourBlock::Key(point, axis));
     return key != keys.end() && *key == ContourBlock::Key(point, axis) ? key - keys.begin()
                                                                        : Missing;
+  }
+
+  /// A face of a cell with a sharp vertex, beyond which there is another one.
+  struct SharpFace
+  {
+    Vertex other;
+    bool isUpper; ///< of the cell
+    int axis;
+    Vector3d low; ///< the face's first corner
+  };
+
+  /// False when there is no other sharp vertex, or more than one line crosses the face.
+  bool FindSharpFace(
+    const BlockPlace& place, std::size_t sharp, int face, SharpFace& sharpFace) const
+  {
+    const SharpVertex& own = place.sharp[sharp];
+    LatticeIndex cell = CellOf(place.block->cells[own.cell]);
+    sharpFace.axis = face >> 1;
+    sharpFace.isUpper = (face & 1) != 0;
+    LatticeIndex other = cell;
+    other[sharpFace.axis] += sharpFace.isUpper ? 1 : -1;
+    cell[sharpFace.axis] += sharpFace.isUpper ? 1 : 0;
+    sharpFace.low = this->CellCorner(*place.block, cell);
+    return !CubeCases::IsAmbiguous(place.block->cases[own.cell], face) &&
+      this->FindSharp(place, other, sharpFace.other);
+  }
+
+  static SharpVertex& SharpOf(const Vertex& vertex)
+  {
+    return vertex.owner->sharp[vertex.vertex - vertex.owner->block->keys.size()];
   }
 
   /// Two triangles meet on the face between two cells with sharp vertices s and t: (s, u, v) and
@@ -673,27 +1140,17 @@ private:
   void JoinSharp(const BlockPlace& place, std::size_t sharp, int face, Vertex& last) const
   {
     const SharpVertex& own = place.sharp[sharp];
-    if (CubeCases::IsAmbiguous(place.block->cases[own.cell], face))
+    SharpFace sharpFace;
+    if (this->FindSharpFace(place, sharp, face, sharpFace))
     {
-      return;
-    }
-    const LatticeIndex cell = CellOf(place.block->cells[own.cell]);
-    const int axis = face >> 1, isUpper = face & 1;
-    LatticeIndex other = cell, faceCell = cell;
-    other[axis] += isUpper ? 1 : -1;
-    faceCell[axis] += isUpper;
-    Vertex joined;
-    if (!this->FindSharp(place, other, joined))
-    {
-      return;
-    }
-    const Vector3d& position =
-      joined.owner->sharp[joined.vertex - joined.owner->block->keys.size()].position;
-    const Vector3d faceLow = this->CellCorner(*place.block, faceCell);
-    if (this->MayJoin(
-          isUpper ? own.position : position, isUpper ? position : own.position, faceLow, axis))
-    {
-      last = joined;
+      const SharpVertex& other = SharpOf(sharpFace.other);
+      const bool isBridged = std::any_of(place.bridges.begin(), place.bridges.end(),
+        [&](const JoinedFace& bridge) { return bridge.cell == own.cell && bridge.face == face; });
+      const bool areOwn = own.reach == Reach::Own && other.reach == Reach::Own;
+      if (isBridged || (areOwn && this->IsThroughFace(own.position, other.position, sharpFace)))
+      {
+        last = sharpFace.other;
+      }
     }
   }
 
@@ -723,19 +1180,410 @@ private:
 
   /// Whether an edge between two sharp vertices passes through the face between their cells, well off
   /// its border: then the new triangles stay within the two cells, where nothing else is on that face.
-  bool MayJoin(
-    const Vector3d& lower, const Vector3d& upper, const Vector3d& faceLow, int axis) const
+  bool IsThroughFace(const Vector3d& own, const Vector3d& other, const SharpFace& face) const
   {
-    const double from = lower[axis] - faceLow[axis], to = upper[axis] - faceLow[axis];
+    const Vector3d &lower = face.isUpper ? own : other, &upper = face.isUpper ? other : own;
+    const int axis = face.axis;
+    const double from = lower[axis] - face.low[axis], to = upper[axis] - face.low[axis];
     const Vector3d through = lower + from / (from - to) * (upper - lower);
     const double room = SharpClearance * this->Lattice.spacing;
     bool isInside = from * to < 0;
-    for (int other : { (axis + 1) % 3, (axis + 2) % 3 })
+    for (int across : { (axis + 1) % 3, (axis + 2) % 3 })
     {
-      const double place = through[other] - faceLow[other];
+      const double place = through[across] - face.low[across];
       isInside = isInside && place > room && place < this->Lattice.spacing - room;
     }
     return isInside;
+  }
+
+  SurfacePlane PlaneAt(const Vertex& vertex) const
+  {
+    return { vertex.owner->block->Position(this->Lattice, vertex.vertex),
+      vertex.owner->block->normals[vertex.vertex].cast<double>() };
+  }
+
+  /// Whether an edge between two sharp vertices s and t, in place of the one from u to v, lies in the
+  /// planes at both, and the triangles (s, u, t) and (t, v, s) look to their free sides.
+  bool IsOnSurface(const Vector3d& s, const Vector3d& t, const Vertex& u, const Vertex& v) const
+  {
+    const double reach = FeatureReach * this->Lattice.spacing;
+    const auto isIn = [&](const SurfacePlane& plane, double side)
+    {
+      const Vector3d turned = side * (t - s).cross(plane.point - s);
+      return std::abs(plane.normal.dot(s - plane.point)) <= reach &&
+        std::abs(plane.normal.dot(t - plane.point)) <= reach && turned.dot(plane.normal) > 0;
+    };
+    return isIn(this->PlaneAt(u), -1.0) && isIn(this->PlaneAt(v), 1.0);
+  }
+
+  /// Triangles that the mesh may have near some choices, of which it has those whose conditions hold.
+  struct Candidates
+  {
+    static constexpr int Always = -1;
+    static int If(int choice) { return 2 * choice + 1; }
+    static int IfNot(int choice) { return 2 * choice; }
+
+    std::vector<std::int32_t> triangles;
+    std::vector<std::array<int, 2>> conditions; ///< per triangle
+    std::vector<Vector3d> points;
+    /// The same; in memory, since GCC 12 leaves out a conversion to single precision and back.
+    std::vector<Eigen::Vector3f> rounded;
+    std::unordered_map<std::uint64_t, std::int32_t> ids;
+  };
+
+  /// A sharp vertex where it may be.
+  struct MaybeVertex
+  {
+    Vertex vertex;
+    Vector3d position;
+    bool isOwn; ///< in its own cell
+    int condition;
+  };
+
+  /// What is to be chosen, and how much it matters that it is chosen: the greater rank gives way.
+  struct Choice
+  {
+    Vertex vertex;
+    int face; ///< of a bridge
+    std::array<double, 4> rank;
+    bool isLost;
+  };
+
+  std::uint64_t KeyOf(const Vertex& vertex) const
+  {
+    return static_cast<std::uint64_t>(vertex.owner - this->Places.data()) << 16 |
+      static_cast<std::uint64_t>(vertex.vertex) << 1;
+  }
+
+  std::int32_t AddPoint(Candidates& candidates, std::uint64_t key, const Vector3d& position) const
+  {
+    const auto [place, isNew] =
+      candidates.ids.emplace(key, static_cast<std::int32_t>(candidates.points.size()));
+    if (isNew)
+    {
+      candidates.points.push_back(position);
+      candidates.rounded.push_back(position.cast<float>());
+    }
+    return place->second;
+  }
+
+  std::int32_t AddCorner(Candidates& candidates, const Vertex& vertex) const
+  {
+    return this->AddPoint(
+      candidates, this->KeyOf(vertex), vertex.owner->block->Position(this->Lattice, vertex.vertex));
+  }
+
+  std::int32_t AddCorner(Candidates& candidates, const MaybeVertex& vertex) const
+  {
+    const bool isBack = vertex.condition >= 0 && vertex.condition % 2 == 0;
+    return this->AddPoint(candidates, this->KeyOf(vertex.vertex) + isBack, vertex.position);
+  }
+
+  static void AddTriangle(Candidates& candidates, const std::array<std::int32_t, 3>& corners,
+    int conditionA, int conditionB = Candidates::Always)
+  {
+    candidates.triangles.insert(candidates.triangles.end(), corners.begin(), corners.end());
+    candidates.conditions.push_back({ conditionA, conditionB });
+  }
+
+  /// All that may become of a sharp vertex, while it is not decided which vertices stay beyond their
+  /// cells.
+  using ChoiceIndex = std::unordered_map<std::uint64_t, int>;
+  std::vector<MaybeVertex> Maybe(const Vertex& vertex, const ChoiceIndex& choices) const
+  {
+    const SharpVertex& sharp = SharpOf(vertex);
+    const auto choice = choices.find(this->KeyOf(vertex));
+    if (choice == choices.end())
+    {
+      return { { vertex, sharp.position, sharp.reach == Reach::Own, Candidates::Always } };
+    }
+    return { { vertex, sharp.position, false, Candidates::If(choice->second) },
+      { vertex, sharp.fallback, true, Candidates::IfNot(choice->second) } };
+  }
+
+  /// Adds a block's triangles. The choices are vertices that reach beyond their cells, or (with the
+  /// face added to their key) bridges.
+  void AddCandidates(
+    const BlockPlace& place, const ChoiceIndex& choices, Candidates& candidates) const
+  {
+    std::size_t sharp = 0;
+    Neighbors neighbors = {};
+    for (std::size_t c = 0; c < place.block->cells.size(); ++c)
+    {
+      const LatticeIndex cell = CellOf(place.block->cells[c]);
+      const bool isSharp = sharp < place.sharp.size() && place.sharp[sharp].cell == c;
+      for (const CubeCases::Loop& loop : LoopsOf(place, c))
+      {
+        std::vector<Vertex> corners(loop.size());
+        const bool isWhole = std::equal(loop.begin(), loop.end(), corners.begin(),
+          [&](int edge, Vertex& corner)
+          { return this->FindCorner(place, cell, edge, neighbors, corner); });
+        for (std::size_t n = isSharp ? 0 : 2; n < loop.size() && isWhole; ++n)
+        {
+          const std::size_t from = n > 0 ? n - 1 : loop.size() - 1;
+          if (isSharp)
+          {
+            const int face = CubeCases::CommonFace(loop[from], loop[n]);
+            this->AddFanTriangle(
+              place, sharp, face, corners[from], corners[n], choices, candidates);
+          }
+          else
+          {
+            AddTriangle(candidates,
+              { this->AddCorner(candidates, corners[0]), this->AddCorner(candidates, corners[from]),
+                this->AddCorner(candidates, corners[n]) },
+              Candidates::Always);
+          }
+        }
+      }
+      sharp += isSharp;
+    }
+  }
+
+  void AddFanTriangle(const BlockPlace& place, std::size_t sharp, int face, const Vertex& u,
+    const Vertex& v, const ChoiceIndex& choices, Candidates& candidates) const
+  {
+    const Vertex own = { const_cast<BlockPlace*>(&place), place.block->keys.size() + sharp };
+    SharpFace sharpFace;
+    const bool hasOther = this->FindSharpFace(place, sharp, face, sharpFace);
+    const std::int32_t cornerU = this->AddCorner(candidates, u);
+    const std::int32_t cornerV = this->AddCorner(candidates, v);
+    for (const MaybeVertex& a : this->Maybe(own, choices))
+    {
+      const std::int32_t cornerA = this->AddCorner(candidates, a);
+      if (!hasOther)
+      {
+        AddTriangle(candidates, { cornerA, cornerU, cornerV }, a.condition);
+        continue;
+      }
+      for (const MaybeVertex& b : this->Maybe(sharpFace.other, choices))
+      {
+        const bool isThrough =
+          a.isOwn && b.isOwn && this->IsThroughFace(a.position, b.position, sharpFace);
+        const auto bridge =
+          choices.find(this->BridgeKey(sharpFace.isUpper ? own : sharpFace.other, face));
+        const std::int32_t cornerB = this->AddCorner(candidates, b);
+        if (bridge != choices.end())
+        {
+          AddTriangle(candidates, { cornerA, cornerU, cornerV }, Candidates::IfNot(bridge->second));
+          AddTriangle(candidates, { cornerA, cornerU, cornerB }, Candidates::If(bridge->second));
+        }
+        else
+        {
+          AddTriangle(candidates, { cornerA, cornerU, isThrough ? cornerB : cornerV }, a.condition,
+            b.condition);
+        }
+      }
+    }
+  }
+
+  /// Of the bridge over the upper face of a sharp vertex's cell along the face's axis.
+  std::uint64_t BridgeKey(const Vertex& lower, int face) const
+  {
+    return this->KeyOf(lower) | static_cast<std::uint64_t>(1 + (face >> 1)) << 60;
+  }
+
+  /// Finds the choices that cannot be made: wherever two candidate triangles meet that may be there
+  /// together, the choice of the greatest rank that either needs is lost. So whatever is left can be
+  /// chosen at once, and each choice depends on its surroundings only.
+  void FindLostChoices(std::vector<Choice>& choices, const ChoiceIndex& index,
+    const Progress& progress, const ParallelFor& parallelFor) const
+  {
+    for (std::size_t layer = 0; layer + 1 < this->Layers.size(); ++layer)
+    {
+      progress(static_cast<double>(layer) / this->Layers.size());
+      const std::set<std::size_t> places = this->PlacesAround(choices, layer);
+      Candidates candidates;
+      for (std::size_t place : places)
+      {
+        this->AddCandidates(this->Places[place], index, candidates);
+      }
+      std::vector<std::size_t> suspects;
+      for (std::size_t t = 0; t < candidates.conditions.size(); ++t)
+      {
+        for (int condition : candidates.conditions[t])
+        {
+          if (condition >= 0 && condition % 2 == 1 &&
+            this->IsInLayer(choices[condition / 2].vertex, layer) &&
+            (suspects.empty() || suspects.back() != t))
+          {
+            suspects.push_back(t);
+          }
+        }
+      }
+      const auto position = [&](std::int32_t vertex) -> Vector3d
+      {
+        return this->IsSingle ? Vector3d(candidates.rounded[vertex].cast<double>())
+                              : candidates.points[vertex];
+      };
+      const TriangleSoup soup = { position, candidates.triangles.data(),
+        candidates.conditions.size() };
+      const auto mayMeet = [&](std::size_t a, std::size_t b)
+      { return AreCompatible(candidates.conditions[a], candidates.conditions[b]); };
+      for (const auto& [a, b] :
+        FindIntersections(soup, suspects, this->Lattice.spacing, mayMeet, parallelFor))
+      {
+        Choice* loser = nullptr;
+        for (std::size_t t : { a, b })
+        {
+          for (int condition : candidates.conditions[t])
+          {
+            Choice* choice =
+              condition >= 0 && condition % 2 == 1 ? &choices[condition / 2] : nullptr;
+            loser = choice && (!loser || loser->rank < choice->rank) ? choice : loser;
+          }
+        }
+        if (this->IsInLayer(loser->vertex, layer))
+        {
+          loser->isLost = true;
+        }
+      }
+    }
+    progress(1.0);
+  }
+
+  static bool AreCompatible(const std::array<int, 2>& a, const std::array<int, 2>& b)
+  {
+    for (int conditionA : a)
+    {
+      for (int conditionB : b)
+      {
+        if (conditionA >= 0 && conditionB >= 0 && (conditionA ^ 1) == conditionB)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool IsInLayer(const Vertex& vertex, std::size_t layer) const
+  {
+    const std::size_t place = vertex.owner - this->Places.data();
+    return place >= this->Layers[layer].place && place < this->Layers[layer + 1].place;
+  }
+
+  /// The blocks near the choices of a layer, some cells around.
+  std::set<std::size_t> PlacesAround(const std::vector<Choice>& choices, std::size_t layer) const
+  {
+    std::set<std::size_t> places;
+    for (const Choice& choice : choices)
+    {
+      if (!this->IsInLayer(choice.vertex, layer))
+      {
+        continue;
+      }
+      const LatticeIndex cell =
+        this->LatticeCell(*choice.vertex.owner->block, SharpOf(choice.vertex).cell);
+      for (int n = 0; n < 8; ++n)
+      {
+        LatticeIndex at;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const int around =
+            cell[axis] + ((n >> axis & 1) ? ContourBlock::Size / 2 : -ContourBlock::Size / 2);
+          at[axis] = around < 0 ? -1 : around / ContourBlock::Size;
+        }
+        const BlockPlace* place =
+          std::min({ at[0], at[1], at[2] }) < 0 ? nullptr : this->FindPlace(at);
+        if (place)
+        {
+          places.insert(place - this->Places.data());
+        }
+      }
+    }
+    return places;
+  }
+
+  std::array<double, 4> RankOf(const Vertex& vertex, double first) const
+  {
+    const LatticeIndex cell = this->LatticeCell(*vertex.owner->block, SharpOf(vertex).cell);
+    return { first, double(cell[0]), double(cell[1]), double(cell[2]) };
+  }
+
+  /// Calls visit(vertex) for all sharp vertices.
+  template <typename Visit>
+  void ForEachSharpVertex(Visit&& visit)
+  {
+    for (BlockPlace& place : this->Places)
+    {
+      for (std::size_t i = 0; i < place.sharp.size(); ++i)
+      {
+        visit(Vertex{ &place, place.block->keys.size() + i });
+      }
+    }
+  }
+
+  /// Of the vertices beyond their cells, leaves those about which the fans meet nothing.
+  void MoveMeetingVerticesBack(const Progress& progress, const ParallelFor& parallelFor)
+  {
+    std::vector<Choice> choices;
+    ChoiceIndex index;
+    this->ForEachSharpVertex(
+      [&](const Vertex& vertex)
+      {
+        const SharpVertex& sharp = SharpOf(vertex);
+        if (sharp.reach != Reach::Own)
+        {
+          const AlignedBox3d cell =
+            this->CellBox(this->LatticeCell(*vertex.owner->block, sharp.cell), 0.0);
+          const double distance = cell.exteriorDistance(sharp.position) / this->Lattice.spacing;
+          // The one that reaches into a cell of the surface gives way first, then the further one.
+          const double rank = distance + (sharp.reach == Reach::Surface ? 4.0 : 0.0);
+          index[this->KeyOf(vertex)] = static_cast<int>(choices.size());
+          choices.push_back({ vertex, 0, this->RankOf(vertex, rank), false });
+        }
+      });
+    this->FindLostChoices(choices, index, progress, parallelFor);
+    for (const Choice& choice : choices)
+    {
+      if (choice.isLost)
+      {
+        SharpVertex& sharp = SharpOf(choice.vertex);
+        sharp.position = sharp.fallback;
+        sharp.reach = Reach::Own;
+      }
+    }
+  }
+
+  /// Joins sharp vertices also by edges that do not pass through the face between their cells, where
+  /// the edge is on the surface and the new triangles meet nothing.
+  void FindBridges(const Progress& progress, const ParallelFor& parallelFor)
+  {
+    std::vector<Choice> choices;
+    ChoiceIndex index;
+    for (BlockPlace& place : this->Places)
+    {
+      this->ForEachTriangle(place,
+        [&](std::size_t, const std::array<Vertex, 3>& corners, bool isSharp, int face)
+        {
+          SharpFace sharpFace;
+          const std::size_t sharp = corners[0].vertex - place.block->keys.size();
+          if (!isSharp || !(face & 1) ||
+            corners[2].vertex >= corners[2].owner->block->keys.size() ||
+            !this->FindSharpFace(place, sharp, face, sharpFace) ||
+            !this->IsOnSurface(SharpOf(corners[0]).position, SharpOf(sharpFace.other).position,
+              corners[1], corners[2]))
+          {
+            return;
+          }
+          index[this->BridgeKey(corners[0], face)] = static_cast<int>(choices.size());
+          choices.push_back({ corners[0], face, this->RankOf(corners[0], face), false });
+        });
+    }
+    this->FindLostChoices(choices, index, progress, parallelFor);
+    for (const Choice& choice : choices)
+    {
+      SharpFace sharpFace;
+      const std::size_t sharp = choice.vertex.vertex - choice.vertex.owner->block->keys.size();
+      if (!choice.isLost &&
+        this->FindSharpFace(*choice.vertex.owner, sharp, choice.face, sharpFace))
+      {
+        choice.vertex.owner->bridges.push_back({ SharpOf(choice.vertex).cell, choice.face });
+        sharpFace.other.owner->bridges.push_back(
+          { SharpOf(sharpFace.other).cell, choice.face ^ 1 });
+      }
+    }
   }
 
   /// Writes the mesh layer by layer, and lets go of what no later one needs.
@@ -774,6 +1622,8 @@ private:
     for (std::size_t i = this->Layers[layer].place; i < this->Layers[layer + 1].place; ++i)
     {
       this->Places[i].sharp = {};
+      this->Places[i].joined = {};
+      this->Places[i].bridges = {};
       this->Places[i].vertex = {};
     }
     ReturnFreeMemory();
@@ -819,7 +1669,7 @@ private:
   bool WriteTriangles(const BlockPlace& place, const ContourArrays& arrays) const
   {
     return this->ForEachTriangle(place,
-      [&](std::size_t t, const std::array<Vertex, 3>& corners, bool isSharp)
+      [&](std::size_t t, const std::array<Vertex, 3>& corners, bool isSharp, int)
       {
         const std::size_t triangle = place.firstTriangle + t;
         for (int i = 0; i < 3; ++i)
@@ -850,11 +1700,16 @@ private:
   /// Over which normals are smoothed before they tell of sharp edges, in cells.
   static constexpr double SmoothingRadius = 1.5;
 
+  /// The field must show an edge or corner so close to where the planes say that it is, in cells.
+  static constexpr double FeatureReach = 0.05;
+
   const BoundedField Field;
   const ContourLattice Lattice;
   const ContourOptions Options;
   const bool IsSingle;
   const CrossingOptions Crossing;
+  const double SharpCosine, HalfSharpCosine;
+
   /// Regions of one layer: where they, and their blocks, begin.
   struct Layer
   {

@@ -66,10 +66,14 @@ using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 /// sensitive surface extraction from volume data", SIGGRAPH 2001): a cell whose crossings have normals
 /// that differ by more than the sharp angle gets a vertex where the crossings' planes meet, and edges
 /// are flipped to join such vertices of neighbouring cells. Normals are smoothed over about a cell
-/// first, and the vertex stays in its cell wherever the planes meet: what is finer than the lattice
-/// neither makes nor hides an edge. Only where that keeps the surface from
-/// meeting itself: in cells that one sheet passes, with the vertex inside of the cell, and over a face
-/// that one line crosses, with the new edge through it.
+/// first: what is finer than the lattice neither makes nor hides an edge. Beyond the paper:
+/// - A cell also takes an edge or corner that only its neighbours' planes show, and matter hangs
+///   together across the diagonal of a face whose middle is matter.
+/// - A wedge may dip into cells without holding any of their lattice points; the vertex of the cell
+///   next to it is put there.
+/// - What reaches out of its cells, or is not shown by the cell's own planes, the field must confirm;
+///   and it gives way where its triangles would meet others, by a rule that looks at the surroundings
+///   alone. So the surface never meets itself.
 ///
 /// Pieces share out the lattice. A piece is open where it meets others, and has exactly their
 /// vertices there: all pieces' own points, one piece after the other, are the points of the whole, and

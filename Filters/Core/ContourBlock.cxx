@@ -285,8 +285,7 @@ private:
         }
         if (matter != 0 && matter != 255)
         {
-          this->Block.cells.push_back(
-            static_cast<std::uint16_t>((k * ContourBlock::Size + j) * ContourBlock::Size + i));
+          this->Block.cells.push_back(ContourBlock::CellKey({ i, j, k }));
           this->Block.cases.push_back(static_cast<std::uint8_t>(matter));
         }
       });

@@ -103,6 +103,10 @@ public:
   {
     return static_cast<std::uint16_t>(3 * ((point[2] * Size + point[1]) * Size + point[0]) + axis);
   }
+  static std::uint16_t CellKey(const LatticeIndex& cell)
+  {
+    return static_cast<std::uint16_t>((cell[2] * Size + cell[1]) * Size + cell[0]);
+  }
   static LatticeIndex PointOf(std::uint16_t key)
   {
     const int point = key / 3;
@@ -123,7 +127,7 @@ public:
   std::vector<Eigen::Vector3f> normals; ///< of the surface there, when wanted
 
   // Cells that the surface passes.
-  std::vector<std::uint16_t> cells; ///< (k * Size + j) * Size + i
+  std::vector<std::uint16_t> cells; ///< their keys, ascending
   std::vector<std::uint8_t> cases;  ///< their corners in matter, see CubeCases
 
   std::size_t NumberOfTriangles() const;

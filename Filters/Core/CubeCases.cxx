@@ -56,19 +56,20 @@ bool ShareFace(const std::array<Face, 6>& faces, int edgeA, int edgeB)
 }
 
 // For each crossed edge the one that a loop goes on to: around each face, from where matter is
-// entered to where that run of matter is left.
-std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter)
+// entered to where that run of matter is left; around a joined face, to where the run before is left.
+std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter, int joinedFace)
 {
   std::array<int, 12> next;
   next.fill(-1);
-  for (const Face& face : faces)
+  for (int f = 0; f < 6; ++f)
   {
+    const Face& face = faces[f];
     const auto isMatter = [&](int i) { return (matter >> face[i % 4] & 1) != 0; };
     for (int i = 0; i < 4; ++i)
     {
       if (!isMatter(i) && isMatter(i + 1))
       {
-        int j = i + 1;
+        int j = f == joinedFace ? i + 3 : i + 1;
         while (isMatter(j + 1))
         {
           ++j;
@@ -80,8 +81,8 @@ std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter)
   return next;
 }
 
-// Turns the loop so that its fan keeps off the faces.
-void BringApexToFront(const std::array<Face, 6>& faces, CubeCases::Loop& loop)
+// Turns the loop so that its fan keeps off the faces. False: it cannot.
+bool BringApexToFront(const std::array<Face, 6>& faces, CubeCases::Loop& loop)
 {
   for (std::size_t turn = 0; turn < loop.size(); ++turn)
   {
@@ -89,36 +90,100 @@ void BringApexToFront(const std::array<Face, 6>& faces, CubeCases::Loop& loop)
       [&](int edge) { return ShareFace(faces, loop.front(), edge); });
     if (clear)
     {
-      return;
+      return true;
     }
     std::rotate(loop.begin(), loop.begin() + 1, loop.end());
   }
+  return false;
+}
+
+// Whether a plane parts the cube's edges that two loops pass; then it parts all that is between the
+// edges of each.
+bool ArePartedByAPlane(const CubeCases::Loop& a, const CubeCases::Loop& b)
+{
+  const auto range = [](const CubeCases::Loop& loop, const std::array<int, 3>& normal)
+  {
+    std::pair<int, int> heights(9, -9);
+    for (int edge : loop)
+    {
+      const int begin = CubeCases::Begin(edge);
+      for (int corner : { begin, begin | 1 << (edge >> 2) })
+      {
+        int height = 0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          height += normal[axis] * (corner >> axis & 1);
+        }
+        heights = { std::min(heights.first, height), std::max(heights.second, height) };
+      }
+    }
+    return heights;
+  };
+  for (int n = 0; n < 27; ++n)
+  {
+    const std::array<int, 3> normal = { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
+    const auto low = range(a, normal), high = range(b, normal);
+    // Within its plane neither may lie: then vertices inside of the edges are off it.
+    if (low.second <= high.first && low.first < low.second && high.first < high.second)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 }
 
 CubeCases::CubeCases()
 {
-  const std::array<Face, 6> faces = MakeFaces();
   for (int matter = 0; matter < 256; ++matter)
   {
-    std::array<int, 12> next = Successors(faces, matter);
-    this->Triangles[matter] = 0;
-    for (int edge = 0; edge < 12; ++edge)
+    int ambiguous = 0;
+    this->Joinable[matter] = NoFace;
+    this->MakeLoops(matter, NoFace);
+    for (int face = 0; face < 6; ++face)
     {
-      Loop loop;
-      for (int at = edge; next[at] >= 0;)
+      this->Triangles[matter][1 + face] = 0;
+      if (IsAmbiguous(matter, face))
       {
-        loop.push_back(at);
-        at = std::exchange(next[at], -1);
-      }
-      if (!loop.empty())
-      {
-        BringApexToFront(faces, loop);
-        this->Cases[matter].push_back(loop);
-        this->Triangles[matter] += static_cast<int>(loop.size()) - 2;
+        ++ambiguous;
+        this->MakeLoops(matter, face);
+        this->Joinable[matter] = this->CanJoin(matter, face) ? face : this->Joinable[matter];
       }
     }
+    this->Joinable[matter] = ambiguous == 1 ? this->Joinable[matter] : NoFace;
+  }
+}
+
+void CubeCases::MakeLoops(int matter, int joinedFace)
+{
+  static const std::array<Face, 6> faces = MakeFaces();
+  std::array<int, 12> next = Successors(faces, matter, joinedFace);
+  std::vector<Loop>& loops = this->Cases[matter][1 + joinedFace];
+  int& triangles = this->Triangles[matter][1 + joinedFace];
+  bool isSafe = true;
+  triangles = 0;
+  for (int edge = 0; edge < 12; ++edge)
+  {
+    Loop loop;
+    for (int at = edge; next[at] >= 0;)
+    {
+      loop.push_back(at);
+      at = std::exchange(next[at], -1);
+    }
+    if (!loop.empty())
+    {
+      isSafe = BringApexToFront(faces, loop) && isSafe;
+      isSafe = isSafe &&
+        std::all_of(loops.begin(), loops.end(),
+          [&](const Loop& other) { return ArePartedByAPlane(loop, other); });
+      triangles += static_cast<int>(loop.size()) - 2;
+      loops.push_back(std::move(loop));
+    }
+  }
+  if (joinedFace != NoFace && !isSafe)
+  {
+    loops.clear();
   }
 }
 

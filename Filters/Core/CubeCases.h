@@ -15,7 +15,7 @@ namespace freespace
 /// from corner Begin[edge]. Case bits are set for corners in matter.
 ///
 /// On every face of a cube, each run of matter corners is cut off by one segment: on a face with
-/// two opposite matter corners they stay apart. The two cubes beside a face see the same corners
+/// two opposite matter corners they stay apart, unless it is joined. The two cubes beside a face see the same corners
 /// and so the same segments; the segments of a cube close to loops. Each loop is a fan of triangles
 /// about an apex from which no diagonal lies on a face of the cube (there always is one). Hence the
 /// surface of any lattice is closed and 2-manifold, also at ambiguous faces, and with vertices
@@ -29,9 +29,28 @@ public:
 
   static const CubeCases& Get();
 
-  const std::vector<Loop>& Loops(int matterCorners) const { return this->Cases[matterCorners]; }
+  static constexpr int NoFace = -1;
 
-  int NumberOfTriangles(int matterCorners) const { return this->Triangles[matterCorners]; }
+  /// The loops of a case; with a joined face (see CanJoin), the matter hangs together across it.
+  const std::vector<Loop>& Loops(int matterCorners, int joinedFace = NoFace) const
+  {
+    return this->Cases[matterCorners][1 + joinedFace];
+  }
+
+  int NumberOfTriangles(int matterCorners, int joinedFace = NoFace) const
+  {
+    return this->Triangles[matterCorners][1 + joinedFace];
+  }
+
+  /// Whether a face is ambiguous and may be joined without the cube's triangles meeting, wherever its
+  /// vertices are. It must be joined in both of its cubes.
+  bool CanJoin(int matterCorners, int face) const
+  {
+    return !this->Cases[matterCorners][1 + face].empty();
+  }
+
+  /// The face that can be joined, where it is the cube's only ambiguous one; otherwise NoFace.
+  int OnlyJoinableFace(int matterCorners) const { return this->Joinable[matterCorners]; }
 
   /// The corner where an edge begins; it ends at Begin + (1 << edge / 4).
   static int Begin(int edge)
@@ -52,9 +71,11 @@ public:
 
 private:
   CubeCases();
+  void MakeLoops(int matterCorners, int joinedFace);
 
-  std::array<std::vector<Loop>, 256> Cases;
-  std::array<int, 256> Triangles;
+  std::array<std::array<std::vector<Loop>, 7>, 256> Cases; ///< without and with each joined face
+  std::array<std::array<int, 7>, 256> Triangles;
+  std::array<int, 256> Joinable;
 };
 
 }

@@ -2,6 +2,7 @@
 #include "SharpFeature.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -21,19 +22,28 @@ constexpr double CornerSine = 0.5;
 /// Normals that differ by more are of different surfaces: 53 degrees.
 constexpr double SameSurfaceCosine = 0.6;
 
-Vector3d NearestInBox(const Eigen::AlignedBox3d& box, const Vector3d& point)
+// The directions along which only one of the normals' planes is left at a time, by a unit.
+Eigen::Matrix3Xd DualBasis(const std::vector<Vector3d>& normals)
 {
-  return point.cwiseMax(box.min()).cwiseMin(box.max());
+  Eigen::Matrix3Xd matrix(3, normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    matrix.col(i) = normals[i];
+  }
+  return matrix * (matrix.transpose() * matrix).inverse();
 }
 
-// Moves a point along a line to the place in the box that is nearest to it. False: none is.
-bool SlideIntoBox(const Vector3d& direction, const Eigen::AlignedBox3d& box, Vector3d& point)
+}
+
+bool SharpFeature::SlideInto(const Eigen::AlignedBox3d& box)
 {
-  double low = -HUGE_VAL, high = HUGE_VAL;
+  double low = this->IsCorner() ? 0.0 : -HUGE_VAL, high = -low;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double a = box.min()[axis] - point[axis], b = box.max()[axis] - point[axis];
-    if (std::abs(direction[axis]) < 1e-12)
+    const double a = box.min()[axis] - this->position[axis];
+    const double b = box.max()[axis] - this->position[axis];
+    const double slope = this->direction[axis];
+    if (std::abs(slope) < 1e-12)
     {
       if (a > 0 || b < 0)
       {
@@ -41,21 +51,57 @@ bool SlideIntoBox(const Vector3d& direction, const Eigen::AlignedBox3d& box, Vec
       }
       continue;
     }
-    low = std::max(low, std::min(a / direction[axis], b / direction[axis]));
-    high = std::min(high, std::max(a / direction[axis], b / direction[axis]));
+    low = std::max(low, std::min(a / slope, b / slope));
+    high = std::min(high, std::max(a / slope, b / slope));
   }
   if (low > high)
   {
     return false;
   }
-  point += std::clamp(0.0, low, high) * direction;
+  this->position += std::clamp(0.0, low, high) * this->direction;
   return true;
 }
 
+bool SharpFeature::IsConfirmed(
+  double reach, const std::function<bool(const Vector3d& point)>& isFree) const
+{
+  const int planes = static_cast<int>(this->normals.size());
+  const Eigen::Matrix3Xd dual = DualBasis(this->normals);
+  if (!dual.allFinite())
+  {
+    return false;
+  }
+  bool free[8];
+  for (int place = 0; place < 1 << planes; ++place)
+  {
+    Vector3d offset = Vector3d::Zero();
+    for (int i = 0; i < planes; ++i)
+    {
+      offset += (place >> i & 1 ? reach : -reach) * dual.col(i);
+    }
+    free[place] = isFree(this->position + offset);
+  }
+  if (free[0] || !free[(1 << planes) - 1])
+  {
+    return false;
+  }
+  for (int i = 0; i < planes; ++i)
+  {
+    bool differs = false;
+    for (int place = 0; place < 1 << planes; ++place)
+    {
+      differs = differs || free[place] != free[place ^ 1 << i];
+    }
+    if (!differs)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
-bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosine,
-  const Eigen::AlignedBox3d& box, Vector3d& position)
+bool FindSharpFeature(
+  const std::vector<SurfacePlane>& planes, double sharpCosine, SharpFeature& feature)
 {
   double leastCosine = 1.0;
   Vector3d edge = Vector3d::Zero(), middle = Vector3d::Zero();
@@ -72,6 +118,7 @@ bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosin
       {
         leastCosine = a.normal.dot(b.normal);
         edge = a.normal.cross(b.normal);
+        feature.normals = { a.normal, b.normal };
       }
     }
   }
@@ -80,8 +127,14 @@ bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosin
     return false;
   }
   edge.normalize();
-  const bool isCorner = std::any_of(planes.begin(), planes.end(),
-    [&](const SurfacePlane& plane) { return std::abs(plane.normal.dot(edge)) > CornerSine; });
+  const auto third = std::max_element(planes.begin(), planes.end(),
+    [&](const SurfacePlane& a, const SurfacePlane& b)
+    { return std::abs(a.normal.dot(edge)) < std::abs(b.normal.dot(edge)); });
+  const bool isCorner = std::abs(third->normal.dot(edge)) > CornerSine;
+  if (isCorner)
+  {
+    feature.normals.push_back(third->normal);
+  }
   // Least squares about the middle, in as many directions as the planes fix.
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   Vector3d right = Vector3d::Zero();
@@ -91,16 +144,44 @@ bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosin
     right += plane.normal * plane.normal.dot(plane.point - middle);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(square);
-  position = middle;
+  feature.position = middle;
+  feature.direction = isCorner ? Vector3d::Zero() : Vector3d(eigen.eigenvectors().col(0));
   for (int i = isCorner ? 0 : 1; i < 3; ++i)
   {
     const Vector3d direction = eigen.eigenvectors().col(i);
-    position += direction * (direction.dot(right) / std::max(eigen.eigenvalues()[i], 1e-6));
+    feature.position += direction * (direction.dot(right) / std::max(eigen.eigenvalues()[i], 1e-6));
   }
-  if (isCorner || !SlideIntoBox(eigen.eigenvectors().col(0), box, position))
+  return true;
+}
+
+bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosine,
+  const Eigen::AlignedBox3d& box, Vector3d& position)
+{
+  SharpFeature feature;
+  if (!FindSharpFeature(planes, sharpCosine, feature))
   {
-    position = NearestInBox(box, position);
+    return false;
   }
+  feature.SlideInto(box);
+  position = feature.position.cwiseMax(box.min()).cwiseMin(box.max());
+  return true;
+}
+
+bool FindCornerOnEdge(
+  const SharpFeature& edge, const SurfacePlane& plane, double sharpCosine, SharpFeature& corner)
+{
+  const double slope = plane.normal.dot(edge.direction);
+  const bool isApart = std::all_of(edge.normals.begin(), edge.normals.end(),
+    [&](const Vector3d& normal) { return normal.dot(plane.normal) <= sharpCosine; });
+  if (!isApart || std::abs(slope) <= CornerSine)
+  {
+    return false;
+  }
+  corner = edge;
+  corner.position += plane.normal.dot(plane.point - edge.position) / slope * edge.direction;
+  corner.direction = Vector3d::Zero();
+  corner.normals.push_back(plane.normal);
+  corner.isBorrowed = true;
   return true;
 }
 

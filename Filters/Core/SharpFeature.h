@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <vector>
 
 namespace freespace
@@ -16,14 +17,41 @@ struct SurfacePlane
   Eigen::Vector3d normal; ///< unit length; zero where not known
 };
 
-/// Where planes that a surface has within a cell meet in a sharp edge or corner: the point that is
-/// nearest to all of them in the sense of least squares. At an edge it is free along the edge: there
-/// it comes as near to the middle of the points as it can within the box. An edge or corner that lies
-/// outside, which is where the surface turns in a cell that no lattice edge tells of, is moved to the
-/// nearest place in the box.
+/// A sharp edge or corner: where planes that a surface has near each other meet.
+struct SharpFeature
+{
+  Eigen::Vector3d position;
+  Eigen::Vector3d direction;            ///< along an edge, unit length; zero at a corner
+  std::vector<Eigen::Vector3d> normals; ///< two planes at an edge, three at a corner
+  bool isBorrowed = false;              ///< one of the planes is from elsewhere
+
+  bool IsCorner() const { return this->normals.size() == 3; }
+
+  /// Moves the position along the edge to the nearest place in a box. False: there is none, and the
+  /// position is as it was.
+  bool SlideInto(const Eigen::AlignedBox3d& box);
+
+  /// Whether the surface has the feature within a reach of the position: of the four (eight at a
+  /// corner) places that the planes part there, the one above all of them is free, the one below
+  /// all is matter, and each plane makes a difference somewhere.
+  bool IsConfirmed(
+    double reach, const std::function<bool(const Eigen::Vector3d& point)>& isFree) const;
+};
+
+/// The point that is nearest to all planes in the sense of least squares; at an edge the one of these
+/// that is nearest to the middle of the planes' points.
 /// False when no two normals differ by the sharp angle or more, or when a normal is not known.
+bool FindSharpFeature(
+  const std::vector<SurfacePlane>& planes, double sharpCosine, SharpFeature& feature);
+
+/// The same as a place in a box: an edge or corner that lies outside, which is where the surface turns
+/// in a cell that no lattice edge tells of, is moved to the nearest place in the box.
 bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosine,
   const Eigen::AlignedBox3d& box, Eigen::Vector3d& position);
+
+/// The corner where a plane cuts an edge. False when it is not far enough from parallel to it.
+bool FindCornerOnEdge(
+  const SharpFeature& edge, const SurfacePlane& plane, double sharpCosine, SharpFeature& corner);
 
 /// Whether some two normals differ by more than the angle.
 bool NormalsDiffer(const std::vector<SurfacePlane>& planes, double cosine);

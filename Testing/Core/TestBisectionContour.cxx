@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <thread>
 
 using namespace freespace;
@@ -261,73 +262,72 @@ TEST(BisectionContour, TrianglesKnowWhatTheyAre)
   EXPECT_GT(count[2], 100); // the hull
 }
 
-TEST(BisectionContour, SharpModeRebuildsTheEdgesOfACube)
+namespace
 {
-  class Block : public ContourField
+
+// A cube of side 1, turned and moved, that knows nothing of itself but the normals of its faces.
+class TurnedCube : public ContourField
+{
+public:
+  explicit TurnedCube(unsigned int seed)
   {
-  public:
-    bool IsFree(const Vector3d& point, const FieldScope&) const override
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+    if (seed > 0)
     {
-      return (this->Turn * point).cwiseAbs().maxCoeff() > 0.5;
+      this->Turn = Eigen::AngleAxisd(M_PI * uniform(random), vector().normalized()).matrix();
+      this->Center = 0.1 * vector();
     }
-    SurfaceLabel Label(const Vector3d& free, const Vector3d&, const FieldScope&) const override
-    {
-      const Vector3d p = this->Turn * free;
-      Eigen::Index axis;
-      p.cwiseAbs().maxCoeff(&axis);
-      return { 0, SurfaceKind::Feature,
-        this->Turn.transpose() * Vector3d(std::copysign(1.0, p[axis]) * Vector3d::Unit(axis)) };
-    }
-    Eigen::Matrix3d Turn;
-  };
-  for (double angle : { 0.0, 0.1, 0.2 })
+  }
+  bool IsFree(const Vector3d& point, const FieldScope&) const override
   {
-    Block block;
-    block.Turn = Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()).matrix();
-    ContourOptions options = Cells(32);
-    options.tolerance = 1e-5;
-    const double cell = 1.7 / 31;
-    const ContourMesh plain = BisectionContour(block, Cube(0.85), options);
-    options.sharp = true;
-    const ContourMesh sharp = BisectionContour(block, Cube(0.85), options);
-    EXPECT_EQ(TopologyFaults(sharp), "");
-    EXPECT_NEAR(EnclosedVolume(sharp), 1.0, 0.002);
-    EXPECT_LT(std::abs(EnclosedVolume(sharp) - 1), 0.3 * std::abs(EnclosedVolume(plain) - 1));
-    // How far places on the cube's edges, and its corners, are from the nearest sharp vertex edge.
-    int far = 0, corners = 0;
-    const auto distance = [&](const Vector3d& p)
+    return (this->Turn * (point - this->Center)).cwiseAbs().maxCoeff() > 0.5;
+  }
+  SurfaceLabel Label(const Vector3d& free, const Vector3d&, const FieldScope&) const override
+  {
+    const Vector3d p = this->Turn * (free - this->Center);
+    Eigen::Index axis;
+    p.cwiseAbs().maxCoeff(&axis);
+    return { 0, SurfaceKind::Feature,
+      this->Turn.transpose() * Vector3d(std::copysign(1.0, p[axis]) * Vector3d::Unit(axis)) };
+  }
+  Vector3d FromCube(const Vector3d& p) const { return this->Turn.transpose() * p + this->Center; }
+
+  Eigen::Matrix3d Turn = Eigen::Matrix3d::Identity();
+  Vector3d Center = Vector3d::Zero();
+};
+
+// How many of eleven places on each edge of the cube are further than a length from all edges of a
+// mesh, and how many of its corners from all vertices.
+std::pair<int, int> CountFar(const TurnedCube& cube, const ContourMesh& mesh, double length)
+{
+  int places = 0, corners = 0;
+  for (int edge = 0; edge < 12; ++edge)
+  {
+    for (int i = 0; i <= 10; ++i)
     {
-      double least = HUGE_VAL;
-      for (const auto& t : sharp.triangles)
+      Vector3d p;
+      p[edge / 4] = 0.1 * i - 0.5;
+      p[(edge / 4 + 1) % 3] = edge & 1 ? 0.5 : -0.5;
+      p[(edge / 4 + 2) % 3] = edge & 2 ? 0.5 : -0.5;
+      p = cube.FromCube(p);
+      double toEdge = HUGE_VAL, toVertex = HUGE_VAL;
+      for (const auto& t : mesh.triangles)
       {
-        for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 3; ++c)
         {
-          const Vector3d &a = sharp.points[t[i]], &b = sharp.points[t[(i + 1) % 3]];
+          const Vector3d &a = mesh.points[t[c]], &b = mesh.points[t[(c + 1) % 3]];
           const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-          least = std::min(least, (a + s * (b - a) - p).norm());
+          toEdge = std::min(toEdge, (a + s * (b - a) - p).norm());
+          toVertex = std::min(toVertex, (a - p).norm());
         }
       }
-      return least / cell;
-    };
-    const int samples = 10;
-    for (int edge = 0; edge < 12; ++edge)
-    {
-      const int axis = edge / 4;
-      for (int i = 0; i <= samples; ++i)
-      {
-        Vector3d p;
-        p[axis] = i / double(samples) - 0.5;
-        p[(axis + 1) % 3] = edge & 1 ? 0.5 : -0.5;
-        p[(axis + 2) % 3] = edge & 2 ? 0.5 : -0.5;
-        const bool isFar = distance(block.Turn.transpose() * p) > 0.1;
-        far += isFar;
-        corners += isFar && (i == 0 || i == samples);
-      }
+      places += toEdge > length;
+      corners += (i == 0 || i == 10) && toVertex > length;
     }
-    // Where a wedge dips into a cell without crossing its edges, no lattice can see it.
-    EXPECT_LE(far, angle == 0.0 ? 0 : 12 * (samples + 1) / 8) << angle;
-    EXPECT_LE(corners, angle == 0.0 ? 0 : 3 * 2) << angle;
   }
+  return { places, corners / 3 };
 }
 
 // A cube whose faces have ripples much finer than the lattice, as the union of noisy views has.
@@ -401,6 +401,52 @@ TEST(BisectionContour, SharpModeRebuildsTheEdgesOfARoughCube)
     far += least > 0.25 * cell;
   }
   EXPECT_LE(far, 12 * samples / 20);
+}
+
+class SharpCube : public testing::TestWithParam<unsigned int>
+{
+};
+
+}
+
+TEST_P(SharpCube, HasItsEdgesAndCornersToATenthOfACell)
+{
+  const TurnedCube cube(GetParam());
+  ContourOptions options = Cells(32);
+  options.tolerance = 1e-5;
+  const AlignedBox3d bounds = Cube(1.1);
+  const double cell = 2.2 / 31;
+  const ContourMesh plain = BisectionContour(cube, bounds, options);
+  options.sharp = true;
+  const ContourMesh sharp = BisectionContour(cube, bounds, options);
+  EXPECT_EQ(TopologyFaults(sharp), "");
+  EXPECT_NEAR(EnclosedVolume(sharp), 1.0, 0.0005);
+  EXPECT_TRUE(
+    GetParam() == 0 || CountFar(cube, plain, 0.1 * cell).first > 66); // it means something
+  const auto [places, corners] = CountFar(cube, sharp, 0.1 * cell);
+  EXPECT_EQ(places, 0);
+  EXPECT_EQ(corners, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(BisectionContour, SharpCube, testing::Range(0u, 38u));
+
+// A corner may poke through cells along their diagonals, so that the lattice sees it as a piece of its
+// own and what joins it to the cube is nowhere between two neighbouring points. About one rotation in
+// forty has a place of this kind.
+TEST(BisectionContour, CornersAcrossDiagonalsCostFewPlaces)
+{
+  for (unsigned int seed : { 38u, 159u, 215u })
+  {
+    const TurnedCube cube(seed);
+    ContourOptions options = Cells(32);
+    options.tolerance = 1e-5;
+    options.sharp = true;
+    const ContourMesh sharp = BisectionContour(cube, Cube(1.1), options);
+    EXPECT_EQ(TopologyFaults(sharp), "");
+    const auto [places, corners] = CountFar(cube, sharp, 0.1 * 2.2 / 31);
+    EXPECT_LE(places, 3);
+    EXPECT_EQ(corners, 0);
+  }
 }
 
 TEST(BisectionContour, AwkwardInput)

@@ -26,9 +26,14 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 bool MeetsItself(const ContourMesh& mesh)
 {
   CGAL::Surface_mesh<Kernel::Point_3> surface;
+  // Rounded in memory: GCC 12 leaves out a conversion to single precision and back.
+  std::vector<Eigen::Vector3f> rounded;
   for (const Vector3d& p : mesh.points)
   {
-    const Eigen::Vector3f f = p.cast<float>();
+    rounded.push_back(p.cast<float>());
+  }
+  for (const Eigen::Vector3f& f : rounded)
+  {
     surface.add_vertex(Kernel::Point_3(f.x(), f.y(), f.z()));
   }
   for (const auto& t : mesh.triangles)
@@ -114,16 +119,18 @@ TEST_P(RandomUnion, ContourKeepsItsPromises)
   EXPECT_GT(sharp.points.size(), mesh.points.size());
   EXPECT_EQ(TopologyFaults(sharp), "");
   EXPECT_FALSE(MeetsItself(sharp));
-  if (unionOptions.hullMargin == 0.0)
-  {
-    return;
-  }
-  const Extent measured = Measure(mesh), dense = MeasureDensely(phi, options.cells);
+  const Extent dense = MeasureDensely(phi, options.cells);
   const double hull = phi.Hull().Bounds().volume();
-  EXPECT_NEAR(measured.volume, dense.volume, 0.01 * hull);
-  for (int axis = 0; axis < 3; ++axis)
+  // Without a margin much matter is thinner than a cell, and the two lattices see other parts of it.
+  const double share = unionOptions.hullMargin > 0.0 ? 0.06 : 0.1;
+  for (const ContourMesh* either : { &mesh, &sharp })
   {
-    EXPECT_NEAR(measured.shown[axis], dense.shown[axis], 0.06 * dense.shown.sum());
+    const Extent measured = Measure(*either);
+    EXPECT_NEAR(measured.volume, dense.volume, 0.01 * hull);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(measured.shown[axis], dense.shown[axis], share * dense.shown.sum());
+    }
   }
 }
 

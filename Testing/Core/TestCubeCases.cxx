@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <set>
 
@@ -19,10 +20,10 @@ Vector3d Corner(int c)
   return Vector3d(c & 1, c >> 1 & 1, c >> 2 & 1);
 }
 
-std::vector<Triangle> Triangles(int matter)
+std::vector<Triangle> Triangles(int matter, int joinedFace = CubeCases::NoFace)
 {
   std::vector<Triangle> triangles;
-  for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter))
+  for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, joinedFace))
   {
     for (std::size_t i = 2; i < loop.size(); ++i)
     {
@@ -104,11 +105,60 @@ TEST(CubeCases, LoopsHoldEachCrossedEdgeOnce)
   }
 }
 
-TEST(CubeCases, NoDiagonalLiesOnAFace)
+TEST(CubeCases, JoinedFacesHangTogether)
 {
+  int joinable = 0;
   for (int matter = 0; matter < 256; ++matter)
   {
-    for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter))
+    for (int face = 0; face < 6; ++face)
+    {
+      if (!CubeCases::Get().CanJoin(matter, face))
+      {
+        continue;
+      }
+      ++joinable;
+      EXPECT_TRUE(CubeCases::IsAmbiguous(matter, face));
+      // The same crossings, but the lines over the face cut off its free corners.
+      std::multiset<int> parted, joined;
+      std::map<int, int> next;
+      for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter))
+      {
+        parted.insert(loop.begin(), loop.end());
+      }
+      for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, face))
+      {
+        joined.insert(loop.begin(), loop.end());
+        for (std::size_t i = 0; i < loop.size(); ++i)
+        {
+          next[loop[i]] = loop[(i + 1) % loop.size()];
+        }
+      }
+      EXPECT_EQ(parted, joined);
+      int cutOff = 0;
+      for (const auto& [a, b] : next)
+      {
+        if (CubeCases::CommonFace(a, b) == face)
+        {
+          const int ends[2] = { CubeCases::Begin(a), CubeCases::Begin(a) | 1 << (a >> 2) };
+          const int others[2] = { CubeCases::Begin(b), CubeCases::Begin(b) | 1 << (b >> 2) };
+          const int corner = ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
+          EXPECT_TRUE(corner == others[0] || corner == others[1]);
+          EXPECT_EQ(matter >> corner & 1, 0);
+          ++cutOff;
+        }
+      }
+      EXPECT_EQ(cutOff, 2) << "case " << matter << " face " << face;
+    }
+  }
+  EXPECT_GE(joinable, 100);
+}
+
+TEST(CubeCases, NoDiagonalLiesOnAFace)
+{
+  for (int n = 0; n < 7 * 256; ++n)
+  {
+    const int matter = n / 7;
+    for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, n % 7 - 1))
     {
       for (std::size_t i = 2; i + 1 < loop.size(); ++i)
       {
@@ -149,14 +199,15 @@ TEST(CubeCases, TrianglesNeverMeetWhereverTheVerticesAre)
       const double place = trial % 2 ? s : s < 0.5 ? 0.01 + 1e-4 * s : 0.99 - 1e-4 * s;
       at[edge] = (1 - place) * Corner(begin) + place * Corner(end);
     }
-    for (int matter = 0; matter < 256; ++matter)
+    for (int n = 0; n < 7 * 256; ++n)
     {
-      const std::vector<Triangle> triangles = Triangles(matter);
+      const int matter = n / 7, joinedFace = n % 7 - 1;
+      const std::vector<Triangle> triangles = Triangles(matter, joinedFace);
       for (const Triangle& a : triangles)
       {
         for (const Triangle& b : triangles)
         {
-          ASSERT_FALSE(&a != &b && Meet(a, b, at)) << "case " << matter;
+          ASSERT_FALSE(&a != &b && Meet(a, b, at)) << "case " << matter << " face " << joinedFace;
         }
       }
     }
