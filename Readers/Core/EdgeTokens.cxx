@@ -108,7 +108,17 @@ struct GradientRow
     const float *up = above.grey.data(), *here = this->grey.data(), *down = below.grey.data();
     const int last = static_cast<int>(this->grey.size()) - 1;
     float *gx = this->x.data(), *gy = this->y.data(), *slope = this->squared.data();
-    for (int i = 1; i < last; ++i)
+    const cv::v_float32x4 half = cv::v_setall_f32(0.5f);
+    int i = 1;
+    for (; i + 4 <= last; i += 4)
+    {
+      const cv::v_float32x4 dx = half * (cv::v_load(here + i + 1) - cv::v_load(here + i - 1));
+      const cv::v_float32x4 dy = half * (cv::v_load(down + i) - cv::v_load(up + i));
+      cv::v_store(gx + i, dx);
+      cv::v_store(gy + i, dy);
+      cv::v_store(slope + i, dx * dx + dy * dy);
+    }
+    for (; i < last; ++i)
     {
       gx[i] = 0.5f * (here[i + 1] - here[i - 1]);
       gy[i] = 0.5f * (down[i] - up[i]);
