@@ -329,6 +329,20 @@ class TestTakingUp(WithFolder):
         page = (self.folder / 'out' / 'index.html').read_text()
         self.assertIn('--mesh &#39;my mesh.ply&#39;', page)
 
+    def test_another_given_file_is_another_input(self):
+        small_scene(self.folder)
+        self.assertEqual(run('stereo', 'scene.json', '-o', 'features.vtm', cwd=self.folder).returncode, 0)
+        fast = ('scene.json', '-o', 'out', '--cells', '24')
+        self.report(*fast)   # newer than features.vtm, and from other features
+        self.assertEqual(self.made(self.report(*fast, '--features', 'features.vtm')), ['triangulate', 'contour'])
+
+    def test_photographs_that_were_not_kept(self):
+        small_scene(self.folder)
+        self.assertEqual(run('stereo', 'scene.json', '-o', 'features.vtm', cwd=self.folder).returncode, 0)
+        (self.folder / 'images' / 'cluster1_c.jpg').unlink()
+        self.report('scene.json', '-o', 'out', '--cells', '24', '--features', 'features.vtm')
+        self.assertIn('id="features"', (self.folder / 'out' / 'index.html').read_text())
+
     def test_odd_names_are_harmless(self):
         small_scene(self.folder, name='<b>"one" & \'two\'')
         self.report('scene.json', '-o', 'out & more', '--cells', '24')

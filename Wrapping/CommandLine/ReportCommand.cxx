@@ -118,7 +118,7 @@ std::vector<std::string> ImagesOf(const Cluster& cluster)
   return images;
 }
 
-// The cameras by cluster; where the scene names none, all in one group.
+// The cameras by cluster; where the scene names none, those of all photographs in one group.
 std::vector<CameraGroup> CameraGroups(const Scene& scene)
 {
   std::map<std::string, Camera> cameras;
@@ -127,7 +127,10 @@ std::vector<CameraGroup> CameraGroups(const Scene& scene)
   for (const CalibratedImage& image : ReadSceneImages(scene))
   {
     cameras[image.file] = image.camera;
-    all.cameras.push_back(image.camera);
+    if (fs::exists(scene.ImagePath(image.file)))
+    {
+      all.cameras.push_back(image.camera);
+    }
   }
   for (const Cluster& cluster : scene.clusters)
   {
@@ -304,10 +307,10 @@ void AddNumbers(const Settings& settings, const Surroundings& around, Report& re
     cameras += group.cameras.size();
   }
   report.title = TitleOf(settings.scene);
-  report.summary = FormatCount(static_cast<long long>(cameras)) + " calibrated photographs gave " +
-    FormatCount(features) + " features in " + std::to_string(around.views.size()) +
-    " views, and the boundary of the space that they show to be free is a surface of " +
-    FormatCount(triangles) + " triangles.";
+  report.summary = FormatCount(features) + " features in " + std::to_string(around.views.size()) +
+    " views, and the boundary of the space that they show to be free: a surface of " +
+    FormatCount(triangles) + " triangles, in the colours of " +
+    FormatCount(static_cast<long long>(cameras)) + " calibrated photographs.";
   report.facts = { { FormatCount(static_cast<long long>(cameras)), "photographs" },
     { std::to_string(around.views.size()), "views" }, { FormatCount(features), "features" },
     { FormatCount(inserted), "brought in by the constraint" },

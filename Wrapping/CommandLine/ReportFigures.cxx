@@ -32,17 +32,26 @@ namespace fs = std::filesystem;
 constexpr int widestInPage = 900;  // of a figure, pixels
 constexpr int widestInViews = 640; // of a view's photograph
 
-// Some of the views, evenly picked.
-vtkSmartPointer<vtkMultiBlockDataSet> PickViews(vtkMultiBlockDataSet* features, int most)
+// Some of the views whose photographs are there, evenly picked.
+vtkSmartPointer<vtkMultiBlockDataSet> PickViews(
+  const Scene& scene, vtkMultiBlockDataSet* features, int most)
 {
-  const unsigned int all = features->GetNumberOfBlocks();
-  const unsigned int count = std::min<unsigned int>(all, most);
-  auto picked = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (unsigned int i = 0; i < count; ++i)
+  std::vector<unsigned int> there;
+  const std::vector<View> views = ViewsFromBlocks(features);
+  for (unsigned int i = 0; i < views.size(); ++i)
   {
-    const unsigned int from = static_cast<unsigned int>(std::size_t(i) * all / count);
-    SetNamedBlock(
-      picked, i, BlockName(features, from), vtkPolyData::SafeDownCast(features->GetBlock(from)));
+    if (fs::exists(scene.ImagePath(views[i].imageFile)))
+    {
+      there.push_back(i);
+    }
+  }
+  const std::size_t count = std::min<std::size_t>(there.size(), most);
+  auto picked = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const unsigned int from = there[i * there.size() / count];
+    SetNamedBlock(picked, static_cast<unsigned int>(i), views[from].name,
+      vtkPolyData::SafeDownCast(features->GetBlock(from)));
   }
   return picked;
 }
@@ -107,7 +116,7 @@ std::vector<ReportPicture> Shoot(Session& session, vtkSurfacePicture* picture,
 std::vector<ReportView> FeatureFigures(Session& session, const Scene& scene,
   vtkMultiBlockDataSet* features, const std::string& folder, int most)
 {
-  const auto picked = PickViews(features, most);
+  const auto picked = PickViews(scene, features, most);
   vtkNew<vtkFeatureOverlayWriter> overlay;
   overlay->SetInputDataObject(picked);
   overlay->SetImagesFolder(scene.ImagesFolder());

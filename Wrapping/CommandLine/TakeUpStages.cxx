@@ -62,6 +62,7 @@ StageTime TakeUpOrMake(Session& session, StageRecord& record, Step step, bool fr
   {
     return { step.name, 0, "given" };
   }
+  step.options.insert(step.options.end(), step.inputs.begin(), step.inputs.end());
   step.options.push_back("freespace " FREESPACE_VERSION);
   if (!fresh && record.IsCurrent(step.name, step.options, step.output, step.inputs))
   {
