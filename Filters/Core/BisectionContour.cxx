@@ -329,7 +329,7 @@ private:
       {
         for (const ContourBlock& block : this->Regions[i].blocks)
         {
-          found += 2.0 * block.keys.size();
+          found += this->Regions[i].isOwn ? 2.0 * block.keys.size() : 0.0;
         }
       }
       CheckMemoryLimit(found, this->Options, this->IsSingle);

@@ -29,6 +29,7 @@ void Contour(Session& session, const Settings& settings)
 {
   Ranks ranks;
   vtkSmartPointer<vtkPolyData> piece;
+  bool isWritten = false;
   ranks.Together(
     [&]()
     {
@@ -37,8 +38,14 @@ void Contour(Session& session, const Settings& settings)
         CheckSurfaceName(settings.output);
       }
       const auto maps = ReadMaps(session, settings.maps);
-      piece = settings.contour.RunPiece(session, maps, ranks.Rank(), ranks.Count());
+      isWritten = ranks.Count() == 1 && settings.contour.Stream(session, maps, settings.output);
+      piece =
+        isWritten ? nullptr : settings.contour.RunPiece(session, maps, ranks.Rank(), ranks.Count());
     });
+  if (isWritten)
+  {
+    return;
+  }
   const auto pieces = ranks.Gather(piece);
   ranks.Together(
     [&]()

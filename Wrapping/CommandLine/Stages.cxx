@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "PieceStream.h"
 #include "NotNegative.h"
 #include "Session.h"
 
@@ -28,6 +29,12 @@ namespace freespace
 
 namespace
 {
+
+// What the surface in a .ply of 2^31 vertices would take as one, in MiB.
+constexpr double LargestPly = 150000;
+
+// What no cell of a lattice exceeds, in MiB: five triangles.
+constexpr double WorstCell = 5 * 60.0 / (1024 * 1024);
 
 // Three quarters of the machine's memory, in MiB.
 double ShareOfMemory()
@@ -213,21 +220,62 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
   return this->Join(session, { this->RunPiece(session, maps, 0, 1) });
 }
 
-vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
-  Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const
+vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
+  vtkMultiBlockDataSet* maps) const
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
   phi->SetHullMargin(this->HullMargin);
   phi->SetMinimumViews(this->MinimumViews);
-  vtkNew<vtkBisectionContourFilter> contour;
+  auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
   contour->SetCells(this->Cells);
   contour->SetSharpEdges(!this->NotSharp);
-  contour->SetObservedOnly(this->Observed && pieces == 1);
   contour->SetMemoryLimit(this->MemoryLimit < 0 ? ShareOfMemory() : this->MemoryLimit);
+  return contour;
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
+  Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const
+{
+  const auto contour = this->MakeFilter(maps);
+  contour->SetObservedOnly(this->Observed && pieces == 1);
   session.Run(contour, "contour", piece, pieces);
   return contour->GetOutput();
+}
+
+bool ContourStage::Stream(
+  Session& session, vtkMultiBlockDataSet* maps, const std::string& fileName) const
+{
+  const auto contour = this->MakeFilter(maps);
+  const double limit = contour->GetMemoryLimit();
+  // Most lattices are too small to have such a surface.
+  const double worst = std::pow(this->Cells, 3) * WorstCell;
+  if (limit == 0 || worst <= limit || this->Observed || std::filesystem::path(fileName).extension() != ".ply")
+  {
+    return false;
+  }
+  const double needed = contour->EstimateMemory();
+  session.ThrowIfFailed();
+  if (needed <= limit || needed > LargestPly)
+  {
+    return false;
+  }
+  // Pieces differ in size.
+  const int pieces = static_cast<int>(std::ceil(2 * needed / limit));
+  PieceStream stream(fileName);
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    session.Run(contour,
+      "contour, piece " + std::to_string(piece + 1) + " of " + std::to_string(pieces), piece,
+      pieces);
+    stream.Add(contour->GetOutput());
+  }
+  stream.Finish();
+  session.Tell("contour: " + std::to_string(stream.NumberOfPoints()) + " vertices, " +
+    std::to_string(stream.NumberOfTriangles()) + " triangles");
+  session.Tell("wrote " + fileName);
+  return true;
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::Join(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+class vtkBisectionContourFilter;
 class vtkMultiBlockDataSet;
 class vtkPolyData;
 
@@ -60,6 +61,11 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
 
+  /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
+  /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
+  /// Run tells why.
+  bool Stream(Session& session, vtkMultiBlockDataSet* maps, const std::string& fileName) const;
+
   /// One of the pieces that Join makes the same surface of.
   vtkSmartPointer<vtkPolyData> RunPiece(
     Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const;
@@ -67,6 +73,8 @@ public:
     Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
 private:
+  vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
+
   int Cells = 256;
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
   double HullMargin = 0.01;
