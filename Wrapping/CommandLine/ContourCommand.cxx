@@ -5,6 +5,7 @@
 #include "Session.h"
 #include "Stages.h"
 
+#include <vtkBisectionContourFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 
@@ -37,10 +38,10 @@ void Contour(Session& session, const Settings& settings)
       {
         CheckSurfaceName(settings.output);
       }
-      const auto maps = ReadMaps(session, settings.maps);
-      isWritten = ranks.Count() == 1 && settings.contour.Stream(session, maps, settings.output);
-      piece =
-        isWritten ? nullptr : settings.contour.RunPiece(session, maps, ranks.Rank(), ranks.Count());
+      const auto filter = settings.contour.MakeFilter(ReadMaps(session, settings.maps));
+      isWritten = ranks.Count() == 1 && settings.contour.Stream(session, filter, settings.output);
+      piece = isWritten ? nullptr
+                        : settings.contour.RunPiece(session, filter, ranks.Rank(), ranks.Count());
     });
   if (isWritten)
   {

@@ -217,7 +217,7 @@ void ContourStage::AddOptions(CLI::App& command)
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
 {
-  return this->Join(session, { this->RunPiece(session, maps, 0, 1) });
+  return this->Join(session, { this->RunPiece(session, this->MakeFilter(maps), 0, 1) });
 }
 
 vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
@@ -236,18 +236,16 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
-  Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const
+  Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const
 {
-  const auto contour = this->MakeFilter(maps);
   contour->SetObservedOnly(this->Observed && pieces == 1);
   session.Run(contour, "contour", piece, pieces);
   return contour->GetOutput();
 }
 
 bool ContourStage::Stream(
-  Session& session, vtkMultiBlockDataSet* maps, const std::string& fileName) const
+  Session& session, vtkBisectionContourFilter* contour, const std::string& fileName) const
 {
-  const auto contour = this->MakeFilter(maps);
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
   const double worst = std::pow(this->Cells, 3) * WorstCell;

@@ -61,20 +61,22 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
 
+  /// What makes it of the maps.
+  vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
+
   /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
   /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
-  /// Run tells why.
-  bool Stream(Session& session, vtkMultiBlockDataSet* maps, const std::string& fileName) const;
+  /// RunPiece tells why.
+  bool Stream(
+    Session& session, vtkBisectionContourFilter* contour, const std::string& fileName) const;
 
   /// One of the pieces that Join makes the same surface of.
   vtkSmartPointer<vtkPolyData> RunPiece(
-    Session& session, vtkMultiBlockDataSet* maps, int piece, int pieces) const;
+    Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const;
   vtkSmartPointer<vtkPolyData> Join(
     Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
 private:
-  vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
-
   int Cells = 256;
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
   double HullMargin = 0.01;
