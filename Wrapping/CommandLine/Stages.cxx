@@ -13,6 +13,7 @@
 #include <vtkEdgeStereoReader.h>
 #include <vtkFeatureSupportFilter.h>
 #include <vtkFreespaceUnion.h>
+#include <vtkSimplifySurfaceFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -210,6 +211,12 @@ void ContourStage::AddOptions(CLI::App& command)
       "Do not rebuild sharp edges and corners between the lattice's vertices")
     ->group("Surface");
   command
+    .add_option("--simplify", this->Simplify,
+      "Leave out vertices where the surface is flat; it moves by this length at most; 0: none")
+    ->check(NotNegative())
+    ->capture_default_str()
+    ->group("Surface");
+  command
     .add_flag("--observed", this->Observed,
       "Keep only what was seen: an open surface without the hull and silhouette walls")
     ->group("Surface");
@@ -293,6 +300,16 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(
   }
   session.Tell("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
     std::to_string(surface->GetNumberOfCells()) + " triangles");
+  if (this->Simplify > 0)
+  {
+    vtkNew<vtkSimplifySurfaceFilter> simplify;
+    simplify->SetInputData(surface);
+    simplify->SetDistance(this->Simplify);
+    session.Run(simplify, "simplify");
+    surface = simplify->GetOutput();
+    session.Tell("simplify: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
+      std::to_string(surface->GetNumberOfCells()) + " triangles");
+  }
   return surface;
 }
 

@@ -82,6 +82,7 @@ private:
   double HullMargin = 0.01;
   int MinimumViews = 1;
   bool NotSharp = false;
+  double Simplify = 0.0;
   bool Observed = false;
 };
 
