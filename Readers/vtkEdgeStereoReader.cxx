@@ -39,6 +39,9 @@ private:
   int Before = cv::getNumThreads();
 };
 
+// More views than these clusters have images take long, and see what is to be seen anyway.
+constexpr std::size_t FewClusters = 12;
+
 // The files that a scene's features come from, beside its own.
 std::vector<std::string> FilesOf(const freespace::Scene& scene)
 {
@@ -79,9 +82,8 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
 // As many clusters at a time as there are threads: this bounds the memory and lets the calling
 // thread report progress in between. The first cluster in the scene's order that fails decides the
 // error; those after the needed ones may fail, and then give no view.
-std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
-  std::size_t needed, const freespace::EdgeStereoOptions& options,
-  const freespace::Progress& progress)
+std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene, std::size_t needed,
+  const freespace::EdgeStereoOptions& options, const freespace::Progress& progress)
 {
   const std::vector<freespace::CalibratedImage> images = freespace::ReadSceneImages(scene);
   const SingleThreadedOpenCV guard;
@@ -179,7 +181,9 @@ int vtkEdgeStereoReader::RequestData(
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
-    if (this->EveryImage)
+    const bool isOpen =
+      scene.clusters.size() <= FewClusters && freespace::ReadScene(this->FileName).clusters.empty();
+    if (this->EveryImage == ALWAYS || (this->EveryImage == WHERE_NONE_WAS_CHOSEN && isOpen))
     {
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
@@ -212,5 +216,5 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
   os << indent << "ColorTolerance: " << this->ColorTolerance << "\n";
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
-  os << indent << "EveryImage: " << (this->EveryImage ? "On" : "Off") << "\n";
+  os << indent << "EveryImage: " << this->EveryImage << "\n";
 }

@@ -141,11 +141,19 @@ public:
 
   ///@{
   /**
-   * Whether every image of a cluster makes a view, not the reference alone. Default off.
+   * Whether every image of a cluster makes a view, not the reference alone: never (off), always (on), or
+   * in small scenes (up to 12 clusters) that name no clusters, so that nobody chose the references.
+   * Default off.
    */
-  vtkSetMacro(EveryImage, bool);
-  vtkGetMacro(EveryImage, bool);
-  vtkBooleanMacro(EveryImage, bool);
+  enum EveryImageMode
+  {
+    NEVER = 0,
+    ALWAYS = 1,
+    WHERE_NONE_WAS_CHOSEN = 2
+  };
+  vtkSetClampMacro(EveryImage, int, NEVER, WHERE_NONE_WAS_CHOSEN);
+  vtkGetMacro(EveryImage, int);
+  vtkBooleanMacro(EveryImage, int);
   ///@}
 
   /**
@@ -170,7 +178,7 @@ protected:
   double MinimumAngle = 6.0;
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
-  bool EveryImage = false;
+  int EveryImage = NEVER;
 
 private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;

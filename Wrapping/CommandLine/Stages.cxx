@@ -73,9 +73,13 @@ void StereoStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Stereo");
   command
-    .add_flag("--every-image", this->EveryImage,
-      "Every image of a cluster is a view, not its middle one alone: sees more, and takes about "
-      "eight times as long")
+    .add_option("--every-image", this->EveryImage,
+      "Every image of a cluster is a view (on), which sees more and takes about eight times as "
+      "long, "
+      "or its middle one alone (off); auto is off but in small scenes that name no clusters")
+    ->check(CLI::IsMember({ "auto", "on", "off" }))
+    ->expected(0, 1)
+    ->default_str("auto")
     ->group("Stereo");
 }
 
@@ -86,7 +90,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetFileName(scene);
   stereo->SetMinimumDepth(this->MinimumDepth);
   stereo->SetMaximumDepth(this->MaximumDepth);
-  stereo->SetEveryImage(this->EveryImage);
+  using Reader = vtkEdgeStereoReader;
+  stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::WHERE_NONE_WAS_CHOSEN
+      : this->EveryImage == "off"                  ? Reader::NEVER
+                                                   : Reader::ALWAYS);
   session.Run(stereo, "stereo");
   vtkSmartPointer<vtkMultiBlockDataSet> features = stereo->GetOutput();
   session.Tell("stereo: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
@@ -191,15 +198,16 @@ void ContourStage::AddOptions(CLI::App& command)
     ->group("Surface");
   command
     .add_option("--memory-limit", this->MemoryLimit,
-      "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters of "
+      "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters "
+      "of "
       "what the machine has")
     ->check(NotNegative())
     ->group("Surface");
   command
     .add_option("--hull-margin", this->HullMargin,
-      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
+      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper; "
+      "otherwise somewhat more than a lattice cell")
     ->check(CLI::Range(0.0, 10.0))
-    ->capture_default_str()
     ->group("Surface");
   command
     .add_option("--min-views", this->MinimumViews, "Views that must agree that a point is free")
@@ -232,7 +240,9 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
-  phi->SetHullMargin(this->HullMargin);
+  // A floor on the hull has to be thick enough for the lattice to see it, and no thicker.
+  constexpr double cells = 1.25;
+  phi->SetHullMargin(this->HullMargin < 0 ? cells / this->Cells : this->HullMargin);
   phi->SetMinimumViews(this->MinimumViews);
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
@@ -256,7 +266,8 @@ bool ContourStage::Stream(
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
   const double worst = std::pow(this->Cells, 3) * WorstCell;
-  if (limit == 0 || worst <= limit || this->Observed || std::filesystem::path(fileName).extension() != ".ply")
+  if (limit == 0 || worst <= limit || this->Observed || this->Simplify > 0 ||
+    std::filesystem::path(fileName).extension() != ".ply")
   {
     return false;
   }

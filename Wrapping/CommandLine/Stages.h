@@ -31,7 +31,7 @@ public:
 private:
   double MinimumDepth = 0;
   double MaximumDepth = 0;
-  bool EveryImage = false;
+  std::string EveryImage = "auto"; // empty: on
 };
 
 /// features -> disparity maps: vtkFeatureSupportFilter, vtkDelaunayDisparityFilter.
@@ -79,7 +79,7 @@ public:
 private:
   int Cells = 256;
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
-  double HullMargin = 0.01;
+  double HullMargin = -1; // below 0: somewhat more than a cell
   int MinimumViews = 1;
   bool NotSharp = false;
   double Simplify = 0.0;
