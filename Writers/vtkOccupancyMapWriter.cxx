@@ -196,9 +196,15 @@ void vtkOccupancyMapWriter::WriteData()
     }
     target.Commit();
   }
+  catch (const Aborted&)
+  {
+    this->SetErrorCode(vtkErrorCode::UserError);
+  }
   catch (const std::exception& error)
   {
-    vtkErrorMacro("Cannot write '" << this->FileName << "': " << error.what());
+    const std::string fault = error.what();
+    const bool isWhole = fault.rfind("Cannot write ", 0) == 0;
+    vtkErrorMacro(<< (isWhole ? fault : "Cannot write '" + this->FileName + "': " + fault));
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
   }
 }

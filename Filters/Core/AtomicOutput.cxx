@@ -3,9 +3,12 @@
 
 #include "Error.h"
 
+#include <algorithm>
 #include <vector>
 
+#include <fcntl.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 namespace freespace
 {
@@ -20,15 +23,46 @@ fs::path MakeFolderBeside(const fs::path& target)
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!target.has_filename() || !fs::is_directory(parent))
   {
-    throw Error("Cannot write " + target.string() + ": there is no folder " + parent.string() + ".");
+    throw Error(
+      "Cannot write " + target.string() + ": there is no folder " + parent.string() + ".");
   }
   std::string pattern = (parent / ".freespace-XXXXXX").string();
   if (!mkdtemp(pattern.data()))
   {
-    throw Error("Cannot write " + target.string() + ": the folder " + parent.string()
-      + " is not writable.");
+    throw Error(
+      "Cannot write " + target.string() + ": the folder " + parent.string() + " is not writable.");
   }
   return pattern;
+}
+
+// Whether a file can grow by some bytes, which it then does not. Many writers do not look at what the
+// disk says: what ends where nothing more can be written must be taken for cut off.
+bool CanGrow(const fs::path& file, std::size_t bytes)
+{
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+  if (descriptor < 0)
+  {
+    return false;
+  }
+  const off_t size = lseek(descriptor, 0, SEEK_END);
+  const std::vector<char> some(bytes, 0);
+  const bool grew = write(descriptor, some.data(), bytes) == static_cast<ssize_t>(bytes);
+  const bool shrank = ftruncate(descriptor, size) == 0;
+  return close(descriptor) == 0 && grew && shrank;
+}
+
+// Whether all that was written beside a target seems to be whole.
+bool IsWhole(const fs::path& folder)
+{
+  constexpr std::size_t block = 1 << 16;
+  const fs::path probe = folder / ".probe";
+  const bool hasRoom = CanGrow(probe, block);
+  fs::remove(probe);
+  const fs::recursive_directory_iterator files(folder);
+  return hasRoom &&
+    std::all_of(begin(files), end(files),
+      [](const fs::directory_entry& entry)
+      { return !entry.is_regular_file() || CanGrow(entry.path(), 1); });
 }
 
 // A folder cannot be renamed onto one that has files: the old one goes aside first.
@@ -63,6 +97,11 @@ void AtomicOutput::Commit()
   }
   try
   {
+    if (!IsWhole(this->Folder))
+    {
+      throw Error("Cannot write " + this->Target.string() +
+        ": the disk is full, or the file is larger than is allowed.");
+    }
     // The target itself last: it refers to the others.
     const fs::path parent = this->Target.has_parent_path() ? this->Target.parent_path() : ".";
     std::vector<fs::path> companions;

@@ -20,6 +20,9 @@ namespace
 /// As many as the labels of a surface can tell apart.
 constexpr std::size_t MostViews = 8191;
 
+/// So many are asked faster than they are found by an index.
+constexpr std::size_t FewViews = 12;
+
 /// From here on the matter is lost in the box around the hull: somebody took it for a length.
 constexpr double MostMargin = 10.0;
 
@@ -234,7 +237,7 @@ bool FreespaceUnion::IsSeenFree(const Vector3d& point) const
   int free = 0;
   const auto tells = [&](const ViewFreespace& view)
   { return view.IsFree(point) && ++free >= enough; };
-  if (!this->Hull().Bounds().contains(point))
+  if (this->Views.size() <= FewViews || !this->Hull().Bounds().contains(point))
   {
     return std::any_of(
       this->Views.begin(), this->Views.end(), [&](const auto& view) { return tells(*view); });

@@ -224,8 +224,14 @@ std::string PlaceOf(const std::string& text, std::size_t byte)
 
 Json ParseFile(const std::string& file)
 {
+  if (fs::is_directory(file))
+  {
+    throw Error("Cannot read " + file +
+      ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "
+      ".txt).");
+  }
   std::ifstream stream(file);
-  if (!stream || !fs::is_regular_file(file))
+  if (!stream)
   {
     throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
   }

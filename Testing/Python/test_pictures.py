@@ -2,6 +2,7 @@
 """The commands that show a surface or hand it on: view, texture, occupancy, and what is wrong at their doors."""
 import json
 import os
+import resource
 import re
 import shutil
 import struct
@@ -382,11 +383,41 @@ class TestOccupancy(WithScene):
                 self.fails_to_map(output, output=output)
 
     def test_numbers_that_are_none(self):
-        for option in ('--resolution', '--hull-margin', '--minimum-views'):
+        for option in ('--resolution', '--hull-margin', '--min-views'):
             for value in ('-1', 'nan', 'inf', 'x'):
                 with self.subTest(option=option, value=value):
                     self.fails_to_map(option, option, value)
         self.fails_to_map('', '--resolution', '1e-9')
+
+
+
+class TestFullDisk(WithScene):
+    """What a writer could not write to the end is not taken for a file."""
+
+    def cut_off(self, *arguments):
+        before = sorted(self.folder.rglob('*'))
+        result = subprocess.run([PROGRAM, '-q', *map(str, arguments)], cwd=self.folder, capture_output=True,
+                                text=True, timeout=300, preexec_fn=lambda: resource.setrlimit(
+                                    resource.RLIMIT_FSIZE, (20000, 20000)))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn('Cannot write', result.stderr)
+        self.assertEqual(sorted(self.folder.rglob('*')), before)
+
+    def test_surfaces_maps_and_models(self):
+        for name in ('cut.ply', 'cut.stl', 'cut.obj', 'cut.vtp'):
+            with self.subTest(name=name):
+                self.cut_off('contour', 'maps.vtm', '--cells', 40, '-o', name)
+        self.cut_off('triangulate', 'features.vtm', '-o', 'cut.vtm')
+        self.cut_off('occupancy', 'maps.vtm', '-o', 'cut.ot')
+        self.cut_off('texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'cut.glb')
+
+    def test_standard_output(self):
+        (self.folder / 'points.csv').write_text('0,0,0\n')
+        with open('/dev/full', 'w') as full:
+            result = subprocess.run([PROGRAM, '-q', 'query', 'maps.vtm', '--points', 'points.csv'],
+                                    cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=300)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('standard output', result.stderr)
 
 
 if __name__ == '__main__':

@@ -38,7 +38,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("-o,--output", settings.output, "Write the scene with these clusters")
     ->type_name("OUT.json");
   command.add_option("--angle", settings.preferredAngle, "Best angle between neighbours, degrees")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str();
   command
     .add_option("--overlap", settings.minimumOverlap,

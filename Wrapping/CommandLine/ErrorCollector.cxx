@@ -24,14 +24,22 @@ std::string Sentence(const std::string& text)
   return sentence;
 }
 
+// What VTK's own parts say of a failure that one of ours then tells better, with the file's name.
+bool IsOfLittleUse(const std::string& text)
+{
+  return text.find("returned failure for request") != std::string::npos ||
+    text.find("Ran out of disk space") != std::string::npos;
+}
+
 }
 
 void ErrorCollector::DisplayErrorText(const char* text)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  if (this->First.empty())
+  std::string& kept = IsOfLittleUse(text) ? this->Poor : this->First;
+  if (kept.empty())
   {
-    this->First = Sentence(text);
+    kept = Sentence(text);
   }
 }
 
@@ -49,13 +57,14 @@ void ErrorCollector::DisplayGenericWarningText(const char* text)
 std::string ErrorCollector::FirstError()
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  return this->First;
+  return this->First.empty() ? this->Poor : this->First;
 }
 
 void ErrorCollector::Clear()
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->First.clear();
+  this->Poor.clear();
 }
 
 }

@@ -28,7 +28,7 @@ public:
 
 private:
   std::mutex Mutex;
-  std::string First;
+  std::string First, Poor;
 };
 
 }

@@ -6,17 +6,38 @@
 namespace freespace
 {
 
+namespace
+{
+
+bool IsFinite(const std::string& text, double& value)
+{
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+}
+
+}
+
 CLI::Validator NotNegative()
 {
   return CLI::Validator(
     [](const std::string& text)
     {
       double value = 0;
-      const bool good =
-        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
-      return good ? std::string() : "'" + text + "' is not a number of 0 or more";
+      return IsFinite(text, value) && value >= 0 ? std::string()
+                                                 : "'" + text + "' is not a number of 0 or more";
     },
     "NUMBER >= 0");
+}
+
+CLI::Validator Positive()
+{
+  return CLI::Validator(
+    [](const std::string& text)
+    {
+      double value = 0;
+      return IsFinite(text, value) && value > 0 ? std::string()
+                                                : "'" + text + "' is not a number above 0";
+    },
+    "NUMBER > 0");
 }
 
 }

@@ -11,6 +11,9 @@ namespace freespace
 /// limits with 309 digits.
 CLI::Validator NotNegative();
 
+/// The same for a number above 0.
+CLI::Validator Positive();
+
 }
 
 #endif

@@ -174,7 +174,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
   command
     ->add_option(
       "--min-views", settings->minimumViews, "Views that must agree that a point is free")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str();
   command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv");
   command->callback(session.Later(

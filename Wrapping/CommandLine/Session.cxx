@@ -65,6 +65,7 @@ void Session::Begin()
   vtkSMPTools::Initialize(this->Threads);
   std::signal(SIGINT, OnInterrupt);
   std::signal(SIGTERM, OnInterrupt);
+  std::signal(SIGXFSZ, SIG_IGN); // a write fails then, which can be told
 }
 
 std::function<void()> Session::Later(std::function<void()> action, Sharing sharing)
@@ -111,7 +112,13 @@ void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, 
 void Session::Write(vtkWriter* writer)
 {
   Collector()->Clear();
+  ProgressLine line("write", this->Quiet);
+  vtkNew<vtkCallbackCommand> onProgress;
+  onProgress->SetCallback(OnProgress);
+  onProgress->SetClientData(&line);
+  const unsigned long tag = writer->AddObserver(vtkCommand::ProgressEvent, onProgress);
   const bool written = writer->Write() != 0;
+  writer->RemoveObserver(tag);
   this->ThrowIfFailed();
   if (!written)
   {

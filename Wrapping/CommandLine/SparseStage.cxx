@@ -15,11 +15,11 @@ namespace freespace
 void SparseStage::AddOptions(CLI::App& command)
 {
   command.add_option("--min-track", this->MinimumTrackLength, "Images that must see a point")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str()
     ->group("Structure-from-motion model");
   command.add_option("--max-error", this->MaximumError, "Largest reprojection error, pixels")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str()
     ->group("Structure-from-motion model");
   command

@@ -104,7 +104,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
 void TriangulateStage::AddOptions(CLI::App& command)
 {
   command.add_option("--support-radius", this->SupportRadius, "Neighbourhood of a feature, pixels")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str()
     ->group("Disparity maps");
   command
@@ -211,7 +211,7 @@ void ContourStage::AddOptions(CLI::App& command)
     ->group("Surface");
   command
     .add_option("--min-views", this->MinimumViews, "Views that must agree that a point is free")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->capture_default_str()
     ->group("Surface");
   command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "NotNegative.h"
 #include "Animation.h"
 #include "Error.h"
 #include "NewFolder.h"
@@ -64,7 +65,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   from->add_option("--model", settings.model, "Each camera of this COLMAP model")
     ->type_name("FOLDER");
   from->add_option("--turntable", settings.turntable, "So many cameras around the scene")
-    ->check(CLI::PositiveNumber)
+    ->check(Positive())
     ->type_name("N");
   from->require_option(1);
   command.add_option("--rate", settings.rate, "Pictures a second of a film")

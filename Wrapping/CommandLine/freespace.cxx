@@ -96,6 +96,10 @@ std::string Fault(const CLI::App& program, const CLI::ParseError& error)
   {
     return config + " names no command, and neither does the command line.";
   }
+  if (dynamic_cast<const CLI::RequiredError*>(&error))
+  {
+    return "Which command? 'freespace --help' lists them.";
+  }
   return error.what();
 }
 
@@ -140,6 +144,12 @@ int Run(int argc, char* argv[])
     SaveConfig(program, configToSave);
   }
   session.Do();
+  std::cout.flush();
+  if (!std::cout && freespace::LaunchedRank() == 0)
+  {
+    throw freespace::Error(
+      "Cannot write to the standard output: the disk is full or it is closed.");
+  }
   return 0;
 }
 
