@@ -181,9 +181,9 @@ int vtkEdgeStereoReader::RequestData(
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
-    const bool isOpen =
-      scene.clusters.size() <= FewClusters && freespace::ReadScene(this->FileName).clusters.empty();
-    if (this->EveryImage == ALWAYS || (this->EveryImage == WHERE_NONE_WAS_CHOSEN && isOpen))
+    const bool isLeftOpen = this->EveryImage == WHERE_NONE_WAS_CHOSEN && needed <= FewClusters &&
+      freespace::ReadScene(this->FileName).clusters.empty();
+    if (this->EveryImage == ALWAYS || isLeftOpen)
     {
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());

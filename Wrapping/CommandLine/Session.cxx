@@ -48,6 +48,18 @@ ErrorCollector* Collector()
   return collector;
 }
 
+// Does an algorithm's work with its progress shown, its errors collected and interrupts passed on.
+void Watch(vtkAlgorithm* algorithm, ProgressLine& line, const std::function<void()>& work)
+{
+  Collector()->Clear();
+  vtkNew<vtkCallbackCommand> onProgress;
+  onProgress->SetCallback(OnProgress);
+  onProgress->SetClientData(&line);
+  const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, onProgress);
+  work();
+  algorithm->RemoveObserver(tag);
+}
+
 }
 
 void Session::AddOptions(CLI::App& program)
@@ -90,35 +102,28 @@ void Session::Do()
 
 void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
 {
-  Collector()->Clear();
   ProgressLine line(stage, this->Quiet);
-  vtkNew<vtkCallbackCommand> onProgress;
-  onProgress->SetCallback(OnProgress);
-  onProgress->SetClientData(&line);
-  const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, onProgress);
-  if (pieces > 1)
-  {
-    algorithm->UpdatePiece(piece, pieces, 0);
-  }
-  else
-  {
-    algorithm->Update();
-  }
-  algorithm->RemoveObserver(tag);
+  Watch(algorithm, line,
+    [&]
+    {
+      if (pieces > 1)
+      {
+        algorithm->UpdatePiece(piece, pieces, 0);
+      }
+      else
+      {
+        algorithm->Update();
+      }
+    });
   this->ThrowIfFailed();
   line.Finish();
 }
 
 void Session::Write(vtkWriter* writer)
 {
-  Collector()->Clear();
   ProgressLine line("write", this->Quiet);
-  vtkNew<vtkCallbackCommand> onProgress;
-  onProgress->SetCallback(OnProgress);
-  onProgress->SetClientData(&line);
-  const unsigned long tag = writer->AddObserver(vtkCommand::ProgressEvent, onProgress);
-  const bool written = writer->Write() != 0;
-  writer->RemoveObserver(tag);
+  bool written = false;
+  Watch(writer, line, [&] { written = writer->Write() != 0; });
   this->ThrowIfFailed();
   if (!written)
   {
