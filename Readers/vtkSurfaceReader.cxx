@@ -2,6 +2,7 @@
 #include "vtkSurfaceReader.h"
 
 #include "Error.h"
+#include "FileEnding.h"
 #include "WholeFile.h"
 
 #include <vtkCallbackCommand.h>
@@ -15,10 +16,6 @@
 #include <vtkSTLReader.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
-
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 vtkStandardNewMacro(vtkSurfaceReader);
 
@@ -42,9 +39,7 @@ vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& fileName)
 
 vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
 {
-  std::string ending = std::filesystem::path(fileName).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = freespace::LowerCaseEnding(fileName);
   if (ending == ".ply")
   {
     freespace::CheckWholePLY(fileName);

@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "FileEnding.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -14,22 +15,12 @@
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 vtkStandardNewMacro(vtkSurfaceWriter);
 
 namespace
 {
-
-std::string LowerCaseEnding(const std::string& fileName)
-{
-  std::string ending = std::filesystem::path(fileName).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 template <typename Writer>
 void WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName)
@@ -72,7 +63,7 @@ void WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::s
 
 bool vtkSurfaceWriter::CanWriteFile(const std::string& fileName)
 {
-  const std::string ending = LowerCaseEnding(fileName);
+  const std::string ending = freespace::LowerCaseEnding(fileName);
   return ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".vtp";
 }
 
@@ -99,7 +90,7 @@ void vtkSurfaceWriter::WriteData()
     }
     freespace::AtomicOutput target(this->FileName);
     // VTK's PLY writer appends its own ending to any but ".ply".
-    const std::string ending = LowerCaseEnding(this->FileName);
+    const std::string ending = freespace::LowerCaseEnding(this->FileName);
     const std::filesystem::path written =
       std::filesystem::path(target.Path()).replace_extension(ending);
     WriteByEnding(surface, ending, written.string());

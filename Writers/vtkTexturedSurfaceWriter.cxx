@@ -4,6 +4,7 @@
 #include "AtomicOutput.h"
 #include "BinaryGLTF.h"
 #include "Error.h"
+#include "FileEnding.h"
 
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
@@ -16,8 +17,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 
@@ -25,14 +24,6 @@ vtkStandardNewMacro(vtkTexturedSurfaceWriter);
 
 namespace
 {
-
-std::string LowerCaseEnding(const std::string& fileName)
-{
-  std::string ending = std::filesystem::path(fileName).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 void WriteColouredPLY(vtkPolyData* surface, const std::string& fileName)
 {
@@ -93,7 +84,7 @@ vtkTexturedSurfaceWriter::vtkTexturedSurfaceWriter()
 
 bool vtkTexturedSurfaceWriter::CanWriteFile(const std::string& fileName)
 {
-  const std::string ending = LowerCaseEnding(fileName);
+  const std::string ending = freespace::LowerCaseEnding(fileName);
   return ending == ".glb" || ending == ".obj" || ending == ".ply";
 }
 
@@ -119,7 +110,7 @@ void vtkTexturedSurfaceWriter::WriteData()
       throw freespace::Error("Cannot write '" + this->FileName +
         "': a textured surface's file name ends in .glb, .obj or .ply.");
     }
-    const std::string ending = LowerCaseEnding(this->FileName);
+    const std::string ending = freespace::LowerCaseEnding(this->FileName);
     const bool textured = texture && texture->GetNumberOfPoints() > 0 &&
       texture->GetScalarType() == VTK_UNSIGNED_CHAR && surface->GetPointData()->GetTCoords();
     if (ending != ".ply" && !textured)
