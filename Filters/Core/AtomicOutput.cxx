@@ -4,6 +4,7 @@
 #include "Error.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include <fcntl.h>
@@ -65,12 +66,41 @@ bool IsWhole(const fs::path& folder)
       { return !entry.is_regular_file() || CanGrow(entry.path(), 1); });
 }
 
-// A folder cannot be renamed onto one that has files: the old one goes aside first.
+// Whether a file in a target's companion folder has the name of a part of it: STEM_3.vtp.
+bool IsPart(const fs::path& file, const std::string& stem)
+{
+  const std::string name = file.stem().string(), begin = stem + "_";
+  return fs::is_regular_file(file) && file.extension() == ".vtp" && name.size() > begin.size() &&
+    name.compare(0, begin.size(), begin) == 0 &&
+    std::all_of(
+      name.begin() + begin.size(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// A folder that is already there may be somebody's own and hold other things, which stay: only the
+// parts of a former target make room, going aside, and the new ones move in.
+void MoveInto(const fs::path& from, const fs::path& to, const fs::path& aside)
+{
+  fs::create_directory(aside);
+  const fs::directory_iterator old(to);
+  std::vector<fs::path> parts;
+  std::copy_if(begin(old), end(old), std::back_inserter(parts),
+    [&](const fs::path& file) { return IsPart(file, to.filename().string()); });
+  for (const fs::path& part : parts)
+  {
+    fs::rename(part, aside / part.filename());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(from))
+  {
+    fs::rename(entry.path(), to / entry.path().filename());
+  }
+}
+
 void Replace(const fs::path& from, const fs::path& to, const fs::path& aside)
 {
-  if (fs::is_directory(to))
+  if (fs::is_directory(to) && fs::is_directory(from))
   {
-    fs::rename(to, aside);
+    MoveInto(from, to, aside);
+    return;
   }
   fs::rename(from, to);
 }

@@ -22,7 +22,9 @@ public:
   /// Where to write the target; other files may be written beside it.
   std::string Path() const { return (this->Folder / this->Target.filename()).string(); }
 
-  /// Moves all that was written into the target's folder. Throws Error when that fails.
+  /// Moves all that was written into the target's folder. Folders beside a target, such as the NAME of
+  /// NAME.vtm, may be somebody's own: what they hold stays, but for NAME_0.vtp, NAME_1.vtp, ..., the
+  /// parts of a former target. Throws Error when that fails.
   void Commit();
 
 private:

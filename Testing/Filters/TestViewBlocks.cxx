@@ -17,6 +17,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <fstream>
 
 using namespace freespace;
 namespace fs = std::filesystem;
@@ -108,6 +109,30 @@ TEST(ViewBlocks, RoundTripOnDisk)
   fs::remove_all(folder);
 }
 
+TEST(ViewBlocks, AFolderOfTheSameNameKeepsWhatIsNotItsPart)
+{
+  const std::string folder = TemporaryFolder();
+  fs::create_directories(folder + "/scene/scene_1");
+  for (const char* name : { "scene.json", "scene_7.vtp", "scene_3.jpg", "scene_1/picture.jpg" })
+  {
+    std::ofstream(folder + "/scene/" + name) << name;
+  }
+  vtkNew<vtkViewBlocksWriter> writer;
+  writer->SetInputDataObject(MakeBlocks());
+  writer->SetFileName(folder + "/scene.vtm");
+  ASSERT_EQ(writer->Write(), 1);
+  for (const char* name : { "scene.json", "scene_3.jpg", "scene_1/picture.jpg", "scene_0.vtp" })
+  {
+    EXPECT_TRUE(fs::exists(folder + "/scene/" + name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder + "/scene/scene_7.vtp")) << "a part of a former target";
+  vtkNew<vtkViewBlocksReader> reader;
+  reader->SetFileName(folder + "/scene.vtm");
+  reader->Update();
+  EXPECT_EQ(MapsFromBlocks(reader->GetOutput()).size(), 2u);
+  fs::remove_all(folder);
+}
+
 TEST(ViewBlocks, UnwritableFolderIsAnError)
 {
   vtkObject::GlobalWarningDisplayOff();
@@ -163,8 +188,8 @@ TEST(ViewBlocks, LinesAreEdges)
   const vtkIdType ids[3] = { 2, 0, 1 };
   chain->InsertNextCell(3, ids);
   block->SetLines(chain);
-  EXPECT_EQ(ViewFromBlock(block, "view").edges,
-    (std::vector<std::array<int, 2>>{ { 2, 0 }, { 0, 1 } }));
+  EXPECT_EQ(
+    ViewFromBlock(block, "view").edges, (std::vector<std::array<int, 2>>{ { 2, 0 }, { 0, 1 } }));
 
   const vtkIdType wrong[2] = { 0, 3 };
   chain->InsertNextCell(2, wrong);
