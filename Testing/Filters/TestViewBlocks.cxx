@@ -17,7 +17,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <fstream>
 
 using namespace freespace;
 namespace fs = std::filesystem;
