@@ -16,6 +16,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -194,7 +195,7 @@ struct vtkBisectionContourFilter::Task
 };
 
 /// False, with an error, when there is nothing to contour.
-bool vtkBisectionContourFilter::Prepare(Task& task)
+bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& progress)
 {
   if (!this->ImplicitFunction)
   {
@@ -213,7 +214,7 @@ bool vtkBisectionContourFilter::Prepare(Task& task)
   auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
   if (freespaceUnion)
   {
-    task.core = freespaceUnion->GetCore();
+    task.core = freespaceUnion->GetCore(progress);
     if (!task.core)
     {
       vtkErrorMacro("The free space union has no valid disparity maps.");
@@ -240,16 +241,42 @@ bool vtkBisectionContourFilter::Prepare(Task& task)
   return true;
 }
 
-double vtkBisectionContourFilter::EstimateMemory()
+// Of the progress, as of the time: building takes it for each triangle of the maps, contouring for each
+// cell that the surface passes. A union that is up to date takes none.
+double vtkBisectionContourFilter::ShareOfBuilding()
 {
-  Task task;
-  if (!this->Prepare(task))
+  constexpr double trianglesPerCell = 25.0; // take the same time
+  constexpr double unknown = 0.3;
+  auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
+  if (!freespaceUnion || freespaceUnion->IsBuilt())
   {
     return 0.0;
   }
+  vtkMultiBlockDataSet* maps = freespaceUnion->GetMaps();
+  const double triangles = maps ? static_cast<double>(maps->GetNumberOfCells()) : 0.0;
+  const double cells = trianglesPerCell * std::max(1, this->Cells) * std::max(1, this->Cells);
+  return maps ? std::clamp(triangles / (triangles + cells), 0.01, 0.9) : unknown;
+}
+
+double vtkBisectionContourFilter::EstimateMemory()
+{
+  const freespace::Progress progress = freespace::AlgorithmProgress(this);
+  const double built = this->ShareOfBuilding();
+  this->AbortExecute = 0;
   try
   {
-    return freespace::EstimateContour(task.Field(), task.bounds, task.options).megabytes;
+    Task task;
+    if (!this->Prepare(task, progress.Part(0.0, built)))
+    {
+      return 0.0;
+    }
+    return freespace::EstimateContour(
+      task.Field(), task.bounds, task.options, progress.Part(built, 1.0))
+      .megabytes;
+  }
+  catch (const freespace::Aborted&)
+  {
+    return 0.0;
   }
   catch (const std::exception& error)
   {
@@ -263,19 +290,22 @@ int vtkBisectionContourFilter::RequestData(
 {
   vtkInformation* information = outputVector->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(information);
-  Task task;
-  if (!this->Prepare(task))
-  {
-    return 0;
-  }
-  if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
-  {
-    task.options.piece = information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-    task.options.pieces =
-      information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
-  }
+  const freespace::Progress progress = freespace::AlgorithmProgress(this);
+  const double built = this->ShareOfBuilding();
   try
   {
+    Task task;
+    if (!this->Prepare(task, progress.Part(0.0, built)))
+    {
+      return 0;
+    }
+    if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
+    {
+      task.options.piece =
+        information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+      task.options.pieces =
+        information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES());
+    }
     const bool isSingle = freespace::SinglePrecisionSuffices(task.bounds, task.options);
     vtkNew<vtkTypeInt32Array> corners;
     const auto allocate = [&](const freespace::ContourSize& size)
@@ -287,7 +317,7 @@ int vtkBisectionContourFilter::RequestData(
       return AllocateOutput(output, corners, size, isSingle, task.isDirect);
     };
     freespace::BisectionContour(task.Field(), task.bounds, task.options, allocate,
-      freespace::AlgorithmProgress(this), freespace::SMPParallelFor);
+      progress.Part(built, 1.0), freespace::SMPParallelFor);
     SetTriangles(output, corners);
     if (this->ObservedOnly && task.isDirect)
     {

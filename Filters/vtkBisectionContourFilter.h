@@ -42,6 +42,10 @@
 #include "vtkSmartPointer.h" // for the function
 
 class vtkImplicitFunction;
+namespace freespace
+{
+class Progress;
+}
 
 class VTKFREESPACEFILTERS_EXPORT vtkBisectionContourFilter : public vtkPolyDataAlgorithm
 {
@@ -139,7 +143,7 @@ public:
 
   /**
    * About how much memory the whole output and its making will take, in MiB: found in a fraction of the
-   * time. 0 when the function cannot tell, which only a vtkFreespaceUnion can.
+   * time. 0 when the function cannot tell, which only a vtkFreespaceUnion can, and when it was stopped.
    */
   double EstimateMemory();
 
@@ -168,7 +172,8 @@ protected:
 
 private:
   struct Task;
-  bool Prepare(Task& task);
+  bool Prepare(Task& task, const freespace::Progress& progress);
+  double ShareOfBuilding();
 
   vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;
   void operator=(const vtkBisectionContourFilter&) = delete;

@@ -2,11 +2,14 @@
 #include "vtkFreespaceUnion.h"
 
 #include "FreespaceQueries.h"
+#include "Progress.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
+#include "WatchedFor.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkMath.h>
@@ -28,8 +31,9 @@ struct vtkFreespaceUnion::Internals
   vtkSmartPointer<vtkMultiBlockDataSet> Maps;
   vtkSmartPointer<vtkAlgorithmOutput> Connection;
   std::shared_ptr<const freespace::FreespaceUnion> Core;
-  vtkMTimeType BuildTime = 0; ///< MTime that Core was built for
-  std::mutex Building;
+  vtkMTimeType BuildTime = 0;    ///< MTime that Core was built for
+  std::recursive_mutex Building; ///< recursive for observers that ask while it is built
+  bool IsBuilding = false;
   /// The own MTime that Core was built for: what evaluations look at, which come by the million.
   std::atomic<vtkMTimeType> OwnBuildTime{ 0 };
 };
@@ -37,11 +41,97 @@ struct vtkFreespaceUnion::Internals
 namespace
 {
 
-Eigen::Vector3d PointOf(vtkPoints* points, std::size_t i)
+// Of how building is divided between the maps, which may come from a pipeline, and the core.
+constexpr double MapsShare = 0.5;
+
+// And of a batch of queries, between building and asking.
+constexpr double BuildingShare = 0.5;
+
+/// Brings an algorithm up to date, which stops when a progress wants to.
+class WatchedUpdate
+{
+public:
+  WatchedUpdate(vtkAlgorithm* algorithm, const freespace::Progress& progress)
+    : Algorithm(algorithm)
+    , Told(progress)
+  {
+  }
+
+  void Run(int port)
+  {
+    const unsigned long tag =
+      this->Algorithm->AddObserver(vtkCommand::ProgressEvent, this, &WatchedUpdate::See);
+    this->Algorithm->Update(port);
+    this->Algorithm->RemoveObserver(tag);
+    if (this->IsStopped)
+    {
+      this->Algorithm->Modified(); // its output is not what it should be
+      throw freespace::Aborted();
+    }
+  }
+
+private:
+  void See(vtkObject*, unsigned long, void* fraction)
+  {
+    try
+    {
+      this->Told(*static_cast<double*>(fraction));
+    }
+    catch (const freespace::Aborted&)
+    {
+      this->IsStopped = true;
+      this->Algorithm->SetAbortExecute(1);
+    }
+  }
+
+  vtkAlgorithm* Algorithm;
+  const freespace::Progress& Told;
+  bool IsStopped = false;
+};
+
+Eigen::Vector3d PointOf(vtkPoints* points, vtkIdType i)
 {
   Eigen::Vector3d point;
-  points->GetPoint(static_cast<vtkIdType>(i), point.data());
+  points->GetPoint(i, point.data());
   return point;
+}
+
+// Calls ask(core, i) for all of a batch on all threads, once the function is up to date and has the
+// index that is needed. False, with no results, when the progress wanted to stop.
+using MakeIndex = void (freespace::FreespaceUnion::*)(const freespace::Progress&) const;
+template <typename Ask>
+bool AskAll(vtkFreespaceUnion* phi, const freespace::Progress& progress, MakeIndex makeIndex,
+  vtkIdType count, vtkDataArray* results, const Ask& ask)
+{
+  constexpr vtkIdType blockSize = 1024;
+  const double built = phi->IsBuilt() ? 0.0 : BuildingShare;
+  results->SetNumberOfComponents(1);
+  results->SetNumberOfTuples(count);
+  try
+  {
+    const auto core = phi->GetCore(progress.Part(0.0, 0.9 * built));
+    if (core)
+    {
+      (core.get()->*makeIndex)(progress.Part(0.9 * built, built));
+    }
+    freespace::WatchedFor(static_cast<std::size_t>((count + blockSize - 1) / blockSize),
+      freespace::SMPParallelFor, progress.Part(built, 1.0),
+      [&](std::size_t block, const freespace::StopFlag& stop)
+      {
+        const vtkIdType begin = static_cast<vtkIdType>(block) * blockSize;
+        for (vtkIdType i = begin; i < std::min(begin + blockSize, count); ++i)
+        {
+          freespace::ThrowIfStopped(stop);
+          ask(core.get(), i);
+        }
+      });
+  }
+  catch (const freespace::Aborted&)
+  {
+    results->Initialize();
+    return false;
+  }
+  return true;
 }
 
 }
@@ -105,46 +195,95 @@ vtkMTimeType vtkFreespaceUnion::GetMTime()
 
 void vtkFreespaceUnion::Update()
 {
-  const vtkMTimeType time = this->GetMTime();
-  const std::lock_guard<std::mutex> lock(this->Inner->Building);
-  if (this->Inner->BuildTime != time)
-  {
-    this->Build();
-    this->Inner->BuildTime = time;
-    this->Inner->OwnBuildTime = this->Superclass::GetMTime();
-  }
+  this->GetCore();
 }
 
-void vtkFreespaceUnion::Build()
+// Tells the function's own observers, who can stop what is going on.
+freespace::Progress vtkFreespaceUnion::OwnProgress()
+{
+  this->AbortExecute = 0;
+  return freespace::Progress(
+    [this](double fraction)
+    {
+      this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
+      return this->AbortExecute == 0;
+    });
+}
+
+void vtkFreespaceUnion::Build(const freespace::Progress& progress)
 {
   this->Inner->Core.reset();
+  freespace::Progress building = progress;
   if (this->Inner->Connection)
   {
     vtkAlgorithm* producer = this->Inner->Connection->GetProducer();
     const int port = this->Inner->Connection->GetIndex();
-    producer->Update(port);
+    const freespace::Progress updating = progress.Part(0.0, MapsShare);
+    WatchedUpdate(producer, updating).Run(port);
+    building = progress.Part(MapsShare, 1.0);
     this->Inner->Maps = vtkMultiBlockDataSet::SafeDownCast(producer->GetOutputDataObject(port));
   }
   if (!this->Inner->Maps)
   {
-    vtkErrorMacro("There are no disparity maps.");
-    return;
+    throw freespace::Error("There are no disparity maps.");
   }
   freespace::FreespaceUnionOptions options;
   options.minimumViews = this->MinimumViews;
   options.hullMargin = this->HullMargin;
+  vtkMultiBlockDataSet* maps = this->Inner->Maps;
+  this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
+    maps->GetNumberOfBlocks(),
+    [maps](std::size_t i) { return freespace::MapFromBlocks(maps, static_cast<unsigned int>(i)); },
+    options, freespace::SMPParallelFor, building);
+}
+
+bool vtkFreespaceUnion::IsBuilt()
+{
+  const vtkMTimeType time = this->GetMTime();
+  const std::lock_guard<std::recursive_mutex> lock(this->Inner->Building);
+  return this->Inner->BuildTime == time;
+}
+
+std::shared_ptr<const freespace::FreespaceUnion> vtkFreespaceUnion::GetCore(
+  const freespace::Progress& progress)
+{
+  const vtkMTimeType time = this->GetMTime();
+  const std::lock_guard<std::recursive_mutex> lock(this->Inner->Building);
+  if (this->Inner->BuildTime == time || this->Inner->IsBuilding)
+  {
+    return this->Inner->Core;
+  }
+  this->Inner->IsBuilding = true;
+  this->Inner->BuildTime = 0;
+  this->Inner->OwnBuildTime = 0;
   try
   {
-    vtkMultiBlockDataSet* maps = this->Inner->Maps;
-    this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
-      maps->GetNumberOfBlocks(),
-      [maps](std::size_t i)
-      { return freespace::MapFromBlocks(maps, static_cast<unsigned int>(i)); },
-      options, freespace::SMPParallelFor);
+    this->Build(progress);
+  }
+  catch (const freespace::Aborted&)
+  {
+    this->Inner->IsBuilding = false;
+    throw;
   }
   catch (const std::exception& error)
   {
     vtkErrorMacro(<< error.what());
+  }
+  this->Inner->IsBuilding = false;
+  this->Inner->BuildTime = time;
+  this->Inner->OwnBuildTime = this->Superclass::GetMTime();
+  return this->Inner->Core;
+}
+
+std::shared_ptr<const freespace::FreespaceUnion> vtkFreespaceUnion::GetCore()
+{
+  try
+  {
+    return this->GetCore(this->IsBuilt() ? freespace::Progress() : this->OwnProgress());
+  }
+  catch (const freespace::Aborted&)
+  {
+    return nullptr;
   }
 }
 
@@ -152,15 +291,9 @@ const freespace::FreespaceUnion* vtkFreespaceUnion::Built()
 {
   if (this->Inner->OwnBuildTime != this->Superclass::GetMTime())
   {
-    this->Update();
+    this->GetCore(freespace::Progress()); // which nobody stops
   }
   return this->Inner->Core.get();
-}
-
-std::shared_ptr<const freespace::FreespaceUnion> vtkFreespaceUnion::GetCore()
-{
-  this->Update();
-  return this->Inner->Core;
 }
 
 bool vtkFreespaceUnion::IsValid()
@@ -229,18 +362,10 @@ bool vtkFreespaceUnion::HaveSameSize(vtkIdType size, vtkIdType otherSize)
 
 bool vtkFreespaceUnion::ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free)
 {
-  const auto core = this->GetCore();
-  free->SetNumberOfComponents(1);
-  free->SetNumberOfValues(points->GetNumberOfPoints());
-  freespace::SMPParallelFor(points->GetNumberOfPoints(),
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        free->SetValue(i, !core || core->IsFree(PointOf(points, i)));
-      }
-    });
-  return true;
+  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForPoints,
+    points->GetNumberOfPoints(), free,
+    [&](const freespace::FreespaceUnion* core, vtkIdType i)
+    { free->SetValue(i, !core || core->IsFree(PointOf(points, i))); });
 }
 
 bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions)
@@ -249,19 +374,13 @@ bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubl
   {
     return false;
   }
-  const auto core = this->GetCore();
-  fractions->SetNumberOfComponents(1);
-  fractions->SetNumberOfValues(first->GetNumberOfPoints());
-  freespace::SMPParallelFor(first->GetNumberOfPoints(),
-    [&](std::size_t begin, std::size_t end)
+  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
+    first->GetNumberOfPoints(), fractions,
+    [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        fractions->SetValue(
-          i, core ? freespace::FirstBlocked(*core, PointOf(first, i), PointOf(last, i)) : HUGE_VAL);
-      }
+      fractions->SetValue(
+        i, core ? freespace::FirstBlocked(*core, PointOf(first, i), PointOf(last, i)) : HUGE_VAL);
     });
-  return true;
 }
 
 bool vtkFreespaceUnion::AreSpheresFree(
@@ -271,19 +390,13 @@ bool vtkFreespaceUnion::AreSpheresFree(
   {
     return false;
   }
-  const auto core = this->GetCore();
-  free->SetNumberOfComponents(1);
-  free->SetNumberOfValues(centers->GetNumberOfPoints());
-  freespace::SMPParallelFor(centers->GetNumberOfPoints(),
-    [&](std::size_t begin, std::size_t end)
+  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
+    centers->GetNumberOfPoints(), free,
+    [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        free->SetValue(
-          i, !core || freespace::IsSphereFree(*core, PointOf(centers, i), radii->GetValue(i)));
-      }
+      free->SetValue(
+        i, !core || freespace::IsSphereFree(*core, PointOf(centers, i), radii->GetValue(i)));
     });
-  return true;
 }
 
 void vtkFreespaceUnion::GetBounds(double bounds[6])

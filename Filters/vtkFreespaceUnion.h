@@ -27,6 +27,14 @@
  * several threads. Maps that were changed in place are noticed by GetMTime, which every VTK filter
  * asks before it executes; who evaluates by hand calls Update first.
  *
+ * Building takes seconds where there are many views, and so may a batch of queries. Both are watched
+ * like an algorithm: ProgressEvent tells the fraction done, from the calling thread, and an observer
+ * that sets AbortExecute stops them within a tenth of a second. A function that was stopped while it was
+ * built is not valid, and is built anew when it is next asked; a stopped batch is empty. What builds the
+ * function on its own behalf, such as vtkBisectionContourFilter, shows the building as a part of its own
+ * progress and hears its own AbortExecute. Evaluations of a function that is not up to date build it
+ * without an event.
+ *
  * Usable wherever VTK takes a vtkImplicitFunction: vtkSampleFunction, vtkCutter, vtkClipPolyData.
  * vtkBisectionContourFilter finds its boundary without asking most of the volume.
  */
@@ -46,6 +54,7 @@ class vtkUnsignedCharArray;
 namespace freespace
 {
 class FreespaceUnion;
+class Progress;
 }
 
 class VTKFREESPACEFILTERS_EXPORT vtkFreespaceUnion : public vtkImplicitFunction
@@ -118,7 +127,8 @@ public:
   ///@{
   /**
    * The same in batches, on all threads: results are resized to one value for each point (segment,
-   * ball), 1 where it is free. False, with an error, when the numbers of points do not agree.
+   * ball), 1 where it is free. False, with an error, when the numbers of points do not agree, and
+   * without one, and without results, when an observer stopped it.
    */
   bool ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free);
   bool FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions);
@@ -129,6 +139,14 @@ public:
    * Brings the maps and the inner structures up to date.
    */
   void Update();
+
+  ///@{
+  /**
+   * Set by an observer of ProgressEvent to stop what is going on. Taken back when something begins.
+   */
+  void SetAbortExecute(vtkTypeBool abort) { this->AbortExecute = abort; }
+  vtkGetMacro(AbortExecute, vtkTypeBool);
+  ///@}
 
   /**
    * Whether the maps could be used, after an Update.
@@ -147,11 +165,16 @@ public:
   vtkMTimeType GetMTime() override;
 
 #ifndef __VTK_WRAP__
+  ///@{
   /**
-   * The core's function, up to date; null where the maps are not valid. For the classes of this
-   * module.
+   * The core's function, up to date; null where the maps are not valid. For classes that build it on
+   * their own behalf: with a progress of theirs in place of the function's, which makes it throw
+   * freespace::Aborted when it wants to stop. IsBuilt tells whether there is nothing to do for it.
    */
   std::shared_ptr<const freespace::FreespaceUnion> GetCore();
+  std::shared_ptr<const freespace::FreespaceUnion> GetCore(const freespace::Progress& progress);
+  bool IsBuilt();
+  ///@}
 #endif
 
 protected:
@@ -160,6 +183,7 @@ protected:
 
   int MinimumViews = 1;
   double HullMargin = 0.01;
+  vtkTypeBool AbortExecute = 0;
 
 private:
   vtkFreespaceUnion(const vtkFreespaceUnion&) = delete;
@@ -167,7 +191,8 @@ private:
 
   struct Internals;
   const freespace::FreespaceUnion* Built();
-  void Build();
+  void Build(const freespace::Progress& progress);
+  freespace::Progress OwnProgress();
   bool HaveSameSize(vtkIdType size, vtkIdType otherSize);
 
   std::unique_ptr<Internals> Inner;

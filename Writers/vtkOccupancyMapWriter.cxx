@@ -5,8 +5,10 @@
 #include "AtomicOutput.h"
 #include "DisparityImage.h"
 #include "Error.h"
+#include "FreespaceUnion.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
+#include "WatchedFor.h"
 #include "vtkFreespaceUnion.h"
 
 #include <vtkErrorCode.h>
@@ -21,6 +23,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 vtkStandardNewMacro(vtkOccupancyMapWriter);
 
@@ -33,20 +36,16 @@ using namespace freespace;
 class LookedAt
 {
 public:
-  explicit LookedAt(const std::vector<DisparityMap>& maps)
+  LookedAt(const std::vector<DisparityMap>& maps, const Progress& progress)
     : Images(maps.size())
   {
     for (const DisparityMap& map : maps)
     {
       this->Cameras.push_back(map.camera);
     }
-    SMPParallelFor(maps.size(),
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->Images[i] = RenderDisparity({ maps[i].points, maps[i].triangles }, maps[i].camera);
-        }
+    WatchedFor(maps.size(), SMPParallelFor, progress,
+      [&](std::size_t i, const StopFlag&) {
+        this->Images[i] = RenderDisparity({ maps[i].points, maps[i].triangles }, maps[i].camera);
       });
   }
 
@@ -112,46 +111,131 @@ struct Lattice
     }
   }
 
-  double Middle(int axis, std::int64_t index) const
+  std::int64_t NumberOfCells() const { return this->count[0] * this->count[1] * this->count[2]; }
+
+  /// Of a cell; they are counted along x, then y, then z.
+  Eigen::Vector3d Middle(std::int64_t cell) const
   {
-    return (this->first[axis] + index + 0.5) * this->side;
+    const std::int64_t index[3] = { cell % this->count[0], cell / this->count[0] % this->count[1],
+      cell / this->count[0] / this->count[1] };
+    Eigen::Vector3d middle;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] = (this->first[axis] + index[axis] + 0.5) * this->side;
+    }
+    return middle;
   }
 };
 
-void FillTree(const Lattice& lattice, vtkFreespaceUnion* phi, const LookedAt& lookedAt,
+// What is in each cell of a range of the lattice, which is counted along x, then y, then z.
+void ClassifyCells(const Lattice& lattice, const FreespaceUnion& phi, const LookedAt& lookedAt,
+  std::int64_t first, std::vector<Cell>& cells)
+{
+  constexpr std::size_t together = 256;
+  SMPParallelFor((cells.size() + together - 1) / together,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin * together; i < std::min(end * together, cells.size()); ++i)
+      {
+        const Eigen::Vector3d point = lattice.Middle(first + i);
+        cells[i] = !lookedAt(point) ? Unknown : phi.IsFree(point) ? Free : Occupied;
+      }
+    });
+}
+
+void FillTree(const Lattice& lattice, const FreespaceUnion& phi, const LookedAt& lookedAt,
   const Progress& progress, octomap::OcTree& tree)
 {
-  const auto [nx, ny, nz] = lattice.count;
-  std::vector<Cell> slab(nx * ny);
-  for (std::int64_t z = 0; z < nz; ++z)
+  constexpr std::int64_t batch = 4096; // a few hundredths of a second, even with a thousand views
+  const std::int64_t count = lattice.NumberOfCells();
+  std::vector<Cell> cells;
+  for (std::int64_t first = 0; first < count; first += batch)
   {
-    SMPParallelFor(ny,
-      [&, nx = nx](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin * nx; i < end * nx; ++i)
-        {
-          Eigen::Vector3d point(
-            lattice.Middle(0, i % nx), lattice.Middle(1, i / nx), lattice.Middle(2, z));
-          slab[i] = !lookedAt(point)                  ? Unknown
-            : phi->EvaluateFunction(point.data()) > 0 ? Free
-                                                      : Occupied;
-        }
-      });
-    for (std::int64_t i = 0; i < nx * ny; ++i)
+    progress(static_cast<double>(first) / count);
+    cells.resize(std::min(batch, count - first));
+    ClassifyCells(lattice, phi, lookedAt, first, cells);
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-      if (slab[i] != Unknown)
+      if (cells[i] != Unknown)
       {
-        const octomap::point3d middle(static_cast<float>(lattice.Middle(0, i % nx)),
-          static_cast<float>(lattice.Middle(1, i / nx)), static_cast<float>(lattice.Middle(2, z)));
-        tree.setNodeValue(middle,
-          slab[i] == Free ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog(), true);
+        const Eigen::Vector3f middle = lattice.Middle(first + i).cast<float>();
+        tree.setNodeValue(octomap::point3d(middle.x(), middle.y(), middle.z()),
+          cells[i] == Free ? tree.getClampingThresMinLog() : tree.getClampingThresMaxLog(), true);
       }
     }
-    progress(double(z + 1) / nz);
   }
-  tree.updateInnerOccupancy();
-  tree.prune();
+  progress(1.0);
 }
+
+// Makes cells of one kind a larger one, and tells the others what they hold.
+void Prune(octomap::OcTree& tree, octomap::OcTreeNode* node, const StopFlag& stop)
+{
+  ThrowIfStopped(stop);
+  for (unsigned int i = 0; i < 8; ++i)
+  {
+    if (tree.nodeChildExists(node, i))
+    {
+      octomap::OcTreeNode* child = tree.getNodeChild(node, i);
+      if (tree.nodeHasChildren(child))
+      {
+        Prune(tree, child, stop);
+      }
+    }
+  }
+  if (!tree.pruneNode(node))
+  {
+    node->updateOccupancyChildren();
+  }
+}
+
+/// A file that tells how much of it is written, and stops there on request.
+class WatchedFile : public std::filebuf
+{
+public:
+  WatchedFile(const std::string& fileName, double expectedBytes, const Progress& progress)
+    : Expected(expectedBytes)
+    , Told(progress)
+  {
+    this->open(fileName, std::ios::out | std::ios::binary);
+  }
+
+protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override
+  {
+    constexpr std::int64_t step = 1 << 16;
+    const std::int64_t before = this->Written;
+    this->Written += count;
+    if (before / step != this->Written / step)
+    {
+      this->Told(std::min(this->Written / this->Expected, 1.0));
+    }
+    return std::filebuf::xsputn(bytes, count);
+  }
+
+private:
+  double Expected;
+  const Progress& Told;
+  std::int64_t Written = 0;
+};
+
+void WriteTree(
+  const octomap::OcTree& tree, const std::string& fileName, bool isBinary, const Progress& progress)
+{
+  constexpr double bytesPerNode = 5.0, bytesPerBinaryNode = 2.0; // at most
+  WatchedFile file(
+    fileName, (isBinary ? bytesPerBinaryNode : bytesPerNode) * (1.0 + tree.size()), progress);
+  std::ostream stream(&file);
+  stream.exceptions(std::ios::badbit); // lets the wish to stop through
+  const bool written = isBinary ? tree.writeBinaryConst(stream) : tree.write(stream);
+  if (!written || !file.close())
+  {
+    throw Error("the disk is full or failed");
+  }
+  progress(1.0);
+}
+
+/// Parts of the progress.
+constexpr double Built = 0.3, Rendered = 0.35, Indexed = 0.4, Filled = 0.8, Pruned = 0.9;
 
 }
 
@@ -173,27 +257,32 @@ void vtkOccupancyMapWriter::WriteData()
     }
     AtomicOutput target(this->FileName);
     auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
-    const std::vector<DisparityMap> maps = MapsFromBlocks(blocks);
+    const freespace::Progress progress = AlgorithmProgress(this);
     vtkNew<vtkFreespaceUnion> phi;
     phi->SetMaps(blocks);
     phi->SetHullMargin(this->HullMargin);
     phi->SetMinimumViews(this->MinimumViews);
-    phi->Update();
+    const auto core = phi->GetCore(progress.Part(0.0, Built));
     double bounds[6];
     phi->GetBounds(bounds);
-    if (!phi->IsValid() || bounds[0] > bounds[1])
+    if (!core || bounds[0] > bounds[1])
     {
       throw Error("the disparity maps have no features");
     }
     const Lattice lattice(bounds, this->Resolution);
     octomap::OcTree tree(lattice.side);
-    FillTree(lattice, phi, LookedAt(maps), freespace::AlgorithmProgress(this), tree);
-    const bool written =
-      ending == ".bt" ? tree.writeBinaryConst(target.Path()) : tree.write(target.Path());
-    if (!written)
-    {
-      throw Error("the disk is full or failed");
-    }
+    const LookedAt lookedAt(MapsFromBlocks(blocks), progress.Part(Built, Rendered));
+    core->IndexForPoints(progress.Part(Rendered, Indexed));
+    FillTree(lattice, *core, lookedAt, progress.Part(Indexed, Filled), tree);
+    Watched(progress.Part(Filled, Pruned),
+      [&](const StopFlag& stop)
+      {
+        if (tree.getRoot())
+        {
+          Prune(tree, tree.getRoot(), stop);
+        }
+      });
+    WriteTree(tree, target.Path(), ending == ".bt", progress.Part(Pruned, 1.0));
     target.Commit();
   }
   catch (const Aborted&)

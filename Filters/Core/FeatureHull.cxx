@@ -117,11 +117,12 @@ std::vector<Plane> FacetPlanes(const Points& points, Points& corners)
 
 // Points well inside the hull of a few extreme points cannot be corners of the whole hull. Leaving
 // them out first makes the hull of hundreds of thousands of features a matter of a few thousand.
-Points DropInner(const Points& points, double tolerance, int rings)
+Points DropInner(const Points& points, double tolerance, int rings, const StopFlag& stop)
 {
   Points extremes;
   for (int i = 0; i < rings * rings; ++i)
   {
+    ThrowIfStopped(stop);
     // Fibonacci directions over the sphere.
     const double z = 1.0 - (2.0 * i + 1.0) / (rings * rings);
     const double angle = i * M_PI * (3.0 - std::sqrt(5.0));
@@ -174,7 +175,7 @@ std::vector<Plane> FlatPlanes(const Points& points, const Plane& plane)
 
 }
 
-Points FeatureHull::OuterPoints(const Points& points)
+Points FeatureHull::OuterPoints(const Points& points, const StopFlag& stop)
 {
   if (points.size() <= 1000)
   {
@@ -186,10 +187,10 @@ Points FeatureHull::OuterPoints(const Points& points)
     box.extend(p);
   }
   // Few directions first, so that the many are asked of few points.
-  return DropInner(DropInner(points, Tolerance(box), 5), Tolerance(box), 16);
+  return DropInner(DropInner(points, Tolerance(box), 5, stop), Tolerance(box), 16, stop);
 }
 
-FeatureHull::FeatureHull(const Points& points, double margin)
+FeatureHull::FeatureHull(const Points& points, double margin, const StopFlag& stop)
 {
   Points finite;
   Eigen::AlignedBox3d box;
@@ -205,7 +206,7 @@ FeatureHull::FeatureHull(const Points& points, double margin)
   {
     return;
   }
-  const Points outer = OuterPoints(finite);
+  const Points outer = OuterPoints(finite, stop);
   Points corners;
   std::vector<Plane> planes;
   Plane flat;
@@ -222,26 +223,20 @@ FeatureHull::FeatureHull(const Points& points, double margin)
   {
     planes.push_back({ direction, 0.0 });
   }
-  // The offset from all corners, not from the facet's own: no rounding may cut off a feature.
-  this->Normals.resize(3, 0);
-  for (const Plane& plane : planes)
+  planes.erase(std::remove_if(planes.begin(), planes.end(),
+                 [](const Plane& plane) { return plane.normal.squaredNorm() < 0.5; }),
+    planes.end());
+  this->Normals.resize(3, static_cast<Eigen::Index>(planes.size()));
+  this->Offsets.resize(static_cast<Eigen::Index>(planes.size()));
+  for (std::size_t i = 0; i < planes.size(); ++i)
   {
-    if (plane.normal.squaredNorm() > 0.5)
-    {
-      this->AddPlane(plane.normal, Support(corners, plane.normal) + margin);
-    }
+    ThrowIfStopped(stop);
+    // The offset from all corners, not from the facet's own: no rounding may cut off a feature.
+    this->Normals.col(i) = planes[i].normal;
+    this->Offsets[i] = Support(corners, planes[i].normal) + margin;
   }
   this->Box = Eigen::AlignedBox3d(
     box.min() - Vector3d::Constant(margin), box.max() + Vector3d::Constant(margin));
-}
-
-void FeatureHull::AddPlane(const Vector3d& normal, double offset)
-{
-  const Eigen::Index n = this->Normals.cols();
-  this->Normals.conservativeResize(3, n + 1);
-  this->Offsets.conservativeResize(n + 1);
-  this->Normals.col(n) = normal;
-  this->Offsets[n] = offset;
 }
 
 int FeatureHull::NearestPlane(const Vector3d& point) const

@@ -3,6 +3,7 @@
 #define freespace_FeatureHull_h
 
 #include "ContourField.h"
+#include "StopFlag.h"
 
 #include <mutex>
 
@@ -21,12 +22,14 @@ class FeatureHull
 {
 public:
   /// Points that are not finite are left out. Without any point everything is outside.
-  /// The margin is in the points' unit.
-  FeatureHull(const std::vector<Eigen::Vector3d>& points, double margin);
+  /// The margin is in the points' unit. Throws Aborted soon after the flag is set.
+  FeatureHull(
+    const std::vector<Eigen::Vector3d>& points, double margin, const StopFlag& stop = NeverStopped);
 
   /// Those of the points, all finite, that can be corners of their hull, and perhaps some more: a
   /// fraction of the many that lie well inside.
-  static std::vector<Eigen::Vector3d> OuterPoints(const std::vector<Eigen::Vector3d>& points);
+  static std::vector<Eigen::Vector3d> OuterPoints(
+    const std::vector<Eigen::Vector3d>& points, const StopFlag& stop = NeverStopped);
 
   bool IsEmpty() const { return this->Normals.cols() == 0; }
 
@@ -63,7 +66,6 @@ private:
     std::vector<int> planes;
   };
 
-  void AddPlane(const Eigen::Vector3d& normal, double offset);
   void Split(int node, const Eigen::AlignedBox3d& box, int depth) const;
   std::vector<int> Nearest(const Eigen::AlignedBox3d& box, const std::vector<int>& planes) const;
 

@@ -2,7 +2,7 @@
 #include "FreespaceUnion.h"
 
 #include "Error.h"
-#include "ForEach.h"
+#include "WatchedFor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace
 /// As many as the labels of a surface can tell apart.
 constexpr std::size_t MostViews = 8191;
 
-/// So many are asked faster than they are found by an index.
+/// So many views are asked for a point faster than they are found by an index.
 constexpr std::size_t FewViews = 12;
 
 /// From here on the matter is lost in the box around the hull: somebody took it for a length.
@@ -77,38 +77,29 @@ void FreespaceUnionOptions::Check() const
 }
 
 FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
-  const FreespaceUnionOptions& options, const ParallelFor& parallelFor)
+  const FreespaceUnionOptions& options, const ParallelFor& parallelFor, const Progress& progress)
   : FreespaceUnion(
-      maps.size(), [&maps](std::size_t i) { return maps[i]; }, options, parallelFor)
+      maps.size(), [&maps](std::size_t i) { return maps[i]; }, options, parallelFor, progress)
 {
 }
 
 FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
-  const FreespaceUnionOptions& options, const ParallelFor& parallelFor)
+  const FreespaceUnionOptions& options, const ParallelFor& parallelFor, const Progress& progress)
   : Options(options)
+  , Views(count)
 {
   options.Check();
-  if (count > MostViews)
-  {
-    throw Error("There are " + std::to_string(count) + " views, at most " +
-      std::to_string(MostViews) + " can be united.");
-  }
-  // Nothing but the hull could ever be free. Without any views all is free anyway.
-  if (count > 0 && static_cast<std::size_t>(options.minimumViews) > count)
-  {
-    throw Error("The minimum number of views is " + std::to_string(options.minimumViews) +
-      ", but there are only " + std::to_string(count) + " views.");
-  }
-  this->Views.resize(count);
+  this->CheckCount();
   std::vector<std::vector<Vector3d>> outer(count);
   std::vector<Eigen::AlignedBox3d> boxes(count);
   std::mutex asking;
-  ForEach(parallelFor, count,
-    [&](std::size_t i)
+  WatchedFor(count, parallelFor, progress.Part(0.0, 0.9),
+    [&](std::size_t i, const StopFlag& stop)
     {
       const DisparityMap map = [&]
       {
         const std::lock_guard<std::mutex> lock(asking);
+        ThrowIfStopped(stop);
         return mapOf(i);
       }();
       CheckTriangles(map);
@@ -117,8 +108,8 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
       {
         boxes[i].extend(feature);
       }
-      outer[i] = FeatureHull::OuterPoints(features);
-      this->Views[i] = std::make_unique<ViewFreespace>(map);
+      outer[i] = FeatureHull::OuterPoints(features, stop);
+      this->Views[i] = std::make_unique<ViewFreespace>(map, stop);
     });
   std::vector<Vector3d> features;
   Eigen::AlignedBox3d box;
@@ -128,7 +119,26 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
     box.extend(boxes[i]);
   }
   const double margin = features.empty() ? 0.0 : options.hullMargin * box.diagonal().norm();
-  this->FeaturesHull = std::make_unique<FeatureHull>(features, margin);
+  Watched(progress.Part(0.9, 1.0),
+    [&](const StopFlag& stop)
+    { this->FeaturesHull = std::make_unique<FeatureHull>(features, margin, stop); });
+}
+
+void FreespaceUnion::CheckCount() const
+{
+  const std::size_t count = this->Views.size();
+  const int minimum = this->Options.minimumViews;
+  if (count > MostViews)
+  {
+    throw Error("There are " + std::to_string(count) + " views, at most " +
+      std::to_string(MostViews) + " can be united.");
+  }
+  // Nothing but the hull could ever be free. Without any views all is free anyway.
+  if (count > 0 && static_cast<std::size_t>(minimum) > count)
+  {
+    throw Error("The minimum number of views is " + std::to_string(minimum) +
+      ", but there are only " + std::to_string(count) + " views.");
+  }
 }
 
 FreespaceUnion::Winner FreespaceUnion::Evaluate(const Vector3d& point) const
@@ -188,19 +198,37 @@ FieldScope FreespaceUnion::Root() const
 }
 
 // Deep, because a part that a view has decided costs nothing more to ask.
-const ViewIndex& FreespaceUnion::FreeIndex() const
+const ViewIndex& FreespaceUnion::FreeIndex(const Progress& progress) const
 {
   static constexpr int deepestLevel = 7;
   std::call_once(this->FreeIsIndexed,
-    [this]
+    [&]
     {
       this->Free = std::make_unique<ViewIndex>(
         this->Views, this->Hull().Bounds(),
         [](const ViewFreespace& view, const Eigen::AlignedBox3d& box)
         { return view.Classify(box); },
-        this->Options.minimumViews, deepestLevel);
+        this->Options.minimumViews, deepestLevel, progress);
     });
   return *this->Free;
+}
+
+void FreespaceUnion::IndexForBoxes(const Progress& progress) const
+{
+  progress(0.0);
+  if (!this->Hull().IsEmpty())
+  {
+    this->FreeIndex(progress);
+  }
+  progress(1.0);
+}
+
+void FreespaceUnion::IndexForPoints(const Progress& progress) const
+{
+  if (this->Views.size() > FewViews)
+  {
+    this->IndexForBoxes(progress);
+  }
 }
 
 // Shallow: the cones that views look into are wide.

@@ -4,6 +4,7 @@
 
 #include "FeatureHull.h"
 #include "ParallelFor.h"
+#include "Progress.h"
 #include "ViewFreespace.h"
 #include "ViewIndex.h"
 
@@ -36,15 +37,21 @@ struct FreespaceUnionOptions
 class FreespaceUnion : public ContourField
 {
 public:
-  /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point that is not there.
+  /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point
+  /// that is not there; Aborted when the progress wants to stop.
   FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
-    const ParallelFor& parallelFor = SerialFor);
+    const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
 
   /// Of so many maps, each asked for once, used and dropped: they need not all be in memory. The function
   /// is called from several threads, for no two of them at once.
   using MapSource = std::function<DisparityMap(std::size_t)>;
   FreespaceUnion(std::size_t count, const MapSource& mapOf, const FreespaceUnionOptions& options,
-    const ParallelFor& parallelFor = SerialFor);
+    const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
+
+  /// Makes now the index that views are found by, which otherwise the first call of IsFree makes, if
+  /// there are many views, or that of ScopeAround. Throws Aborted when the progress wants to stop.
+  void IndexForPoints(const Progress& progress) const;
+  void IndexForBoxes(const Progress& progress) const;
 
   /// Infinite where there are no features at all: everything is free.
   double Value(const Eigen::Vector3d& point) const;
@@ -92,7 +99,8 @@ private:
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
-  const ViewIndex& FreeIndex() const;
+  void CheckCount() const;
+  const ViewIndex& FreeIndex(const Progress& progress = {}) const;
   const ViewIndex& ClaimIndex() const;
 
   FreespaceUnionOptions Options;

@@ -59,7 +59,7 @@ void Join(ViewFreespace::Intervals& intervals)
 
 }
 
-ViewFreespace::ViewFreespace(const DisparityMap& map)
+ViewFreespace::ViewFreespace(const DisparityMap& map, const StopFlag& stop)
 {
   this->RasterFromWorld << map.camera.K * map.camera.R, map.camera.K * map.camera.t;
   this->Eye = map.camera.Center();
@@ -68,8 +68,10 @@ ViewFreespace::ViewFreespace(const DisparityMap& map)
   {
     return;
   }
-  this->LinkNeighbors();
-  this->MakeRaster();
+  ThrowIfStopped(stop);
+  this->LinkNeighbors(stop);
+  this->MakeRaster(stop);
+  ThrowIfStopped(stop);
   this->MakePyramid();
 }
 
@@ -143,7 +145,7 @@ void ViewFreespace::AddTriangles(const DisparityMap& map)
     std::remove_if(this->Triangles.begin(), this->Triangles.end(), flat), this->Triangles.end());
 }
 
-void ViewFreespace::LinkNeighbors()
+void ViewFreespace::LinkNeighbors(const StopFlag& stop)
 {
   // The edges that begin at each corner, taken from their smaller corner.
   std::vector<int> begin(this->Corners.size() + 2, 0);
@@ -168,6 +170,7 @@ void ViewFreespace::LinkNeighbors()
   }
   for (std::size_t c = 0; c < this->Corners.size(); ++c)
   {
+    ThrowIfStopped(stop);
     for (int i = begin[c]; i < begin[c + 1]; ++i)
     {
       int& neighbor = this->Triangles[bucket[i] / 3].neighbor[bucket[i] % 3];
@@ -250,7 +253,7 @@ void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& vis
   }
 }
 
-void ViewFreespace::MakeRaster()
+void ViewFreespace::MakeRaster(const StopFlag& stop)
 {
   const std::size_t cells = static_cast<std::size_t>(this->Width) * this->Height;
   this->Cells.assign(cells, { Infinity, -Infinity, -1 });
@@ -258,6 +261,7 @@ void ViewFreespace::MakeRaster()
   touches.reserve(8 * this->Triangles.size());
   for (std::size_t t = 0; t < this->Triangles.size(); ++t)
   {
+    ThrowIfStopped(stop);
     const Triangle& triangle = this->Triangles[t];
     Vector2d polygon[3];
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -288,6 +292,7 @@ void ViewFreespace::MakeRaster()
         touches.emplace_back(static_cast<unsigned int>(index), static_cast<int>(t));
       });
   }
+  ThrowIfStopped(stop);
   // Where the border of the map passes, a cell is not wholly covered.
   for (const Triangle& triangle : this->Triangles)
   {
@@ -306,6 +311,7 @@ void ViewFreespace::MakeRaster()
   {
     cell.high = cell.triangle < 0 ? Infinity : cell.high;
   }
+  ThrowIfStopped(stop);
   this->ListBegin.assign(cells + 1, 0);
   for (const auto& touch : touches)
   {

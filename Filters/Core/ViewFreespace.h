@@ -3,6 +3,7 @@
 #define freespace_ViewFreespace_h
 
 #include "ContourField.h"
+#include "StopFlag.h"
 #include "View.h"
 
 #include <cstdint>
@@ -25,7 +26,8 @@ namespace freespace
 class ViewFreespace
 {
 public:
-  explicit ViewFreespace(const DisparityMap& map);
+  /// Throws Aborted soon after the flag is set.
+  explicit ViewFreespace(const DisparityMap& map, const StopFlag& stop = NeverStopped);
 
   /// What the view knows of a point.
   struct Sample
@@ -140,8 +142,8 @@ private:
   double Turn(int a, int b, double x, double y) const;
 
   void AddTriangles(const DisparityMap& map);
-  void LinkNeighbors();
-  void MakeRaster();
+  void LinkNeighbors(const StopFlag& stop);
+  void MakeRaster(const StopFlag& stop);
   template <typename Visit>
   void VisitCells(const Eigen::Vector2d* polygon, int corners, Visit&& visit) const;
   void MakePyramid();

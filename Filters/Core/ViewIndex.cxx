@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewIndex.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace freespace
@@ -48,7 +50,7 @@ int OctantOf(const AlignedBox3d& box, const Vector3d& point)
 }
 
 ViewIndex::ViewIndex(const Views& views, const AlignedBox3d& box, const Question& question,
-  int enough, int deepestLevel)
+  int enough, int deepestLevel, const Progress& progress)
   : Box(box)
   , Undecided(views.size())
 {
@@ -56,8 +58,10 @@ ViewIndex::ViewIndex(const Views& views, const AlignedBox3d& box, const Question
   this->Nodes.push_back({ -1, 0, 0, views.size() });
   // Level by level, so that where there is no room for more all places are told equally well.
   std::vector<std::pair<std::size_t, AlignedBox3d>> level = { { 0, box } };
+  double settled = 0.0;
   for (int depth = 0; depth < deepestLevel && !level.empty(); ++depth)
   {
+    const double share = std::pow(0.125, depth);
     std::vector<std::pair<std::size_t, AlignedBox3d>> next;
     for (const auto& [node, part] : level)
     {
@@ -65,8 +69,11 @@ ViewIndex::ViewIndex(const Views& views, const AlignedBox3d& box, const Question
       if (undecided <= FewViews || this->Nodes[node].freeViews >= enough ||
         this->Nodes.size() + 8 > MostNodes || this->Undecided.size() > MostUndecided)
       {
+        settled += share;
         continue;
       }
+      settled += depth + 1 == deepestLevel ? share : 0.0;
+      progress(std::min(settled, 1.0));
       this->Split(views, question, node, part);
       for (int corner = 0; corner < 8; ++corner)
       {
@@ -75,6 +82,7 @@ ViewIndex::ViewIndex(const Views& views, const AlignedBox3d& box, const Question
     }
     level = std::move(next);
   }
+  progress(1.0);
 }
 
 void ViewIndex::Split(

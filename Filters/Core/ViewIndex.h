@@ -2,6 +2,7 @@
 #ifndef freespace_ViewIndex_h
 #define freespace_ViewIndex_h
 
+#include "Progress.h"
 #include "ViewFreespace.h"
 
 #include <functional>
@@ -22,9 +23,10 @@ public:
   /// What a view says about a box.
   using Question = std::function<BoxContent(const ViewFreespace&, const Eigen::AlignedBox3d&)>;
 
-  /// Nodes that enough views see free are not split, nor those on the deepest level.
+  /// Nodes that enough views see free are not split, nor those on the deepest level. The progress is
+  /// the part of the box that has been settled; throws Aborted when it wants to stop.
   ViewIndex(const Views& views, const Eigen::AlignedBox3d& box, const Question& question,
-    int enough, int deepestLevel);
+    int enough, int deepestLevel, const Progress& progress = {});
 
   /// What is left of the views in a part of the box.
   struct Part

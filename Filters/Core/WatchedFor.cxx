@@ -6,17 +6,67 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <numeric>
 
 namespace freespace
 {
 
-void WatchedFor(std::size_t count, const ParallelFor& parallelFor, const Progress& progress,
-  const std::function<void(std::size_t i, const StopFlag& stop)>& body)
+namespace
+{
+
+// Indices of the greatest values first; of equals, in their order.
+std::vector<std::size_t> GreatestFirst(const std::vector<double>& values)
+{
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  return order;
+}
+
+void Add(std::atomic<double>& sum, double value)
+{
+  double before = sum;
+  while (!sum.compare_exchange_weak(before, before + value))
+  {
+  }
+}
+
+// Does the work on another thread while this one looks at the progress.
+void WatchedWork(const Progress& progress, StopFlag& stop, const std::function<double()>& fraction,
+  const std::function<void()>& work)
 {
   progress(0.0);
+  std::future<void> worker = std::async(std::launch::async, work);
+  try
+  {
+    while (worker.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    {
+      progress(std::min(fraction(), 1.0));
+    }
+    worker.get();
+  }
+  catch (...)
+  {
+    stop = true;
+    if (worker.valid())
+    {
+      worker.wait();
+    }
+    throw;
+  }
+  progress(1.0);
+}
+
+}
+
+void WatchedFor(std::size_t count, const ParallelFor& parallelFor, const Progress& progress,
+  const WatchedBody& body)
+{
   StopFlag stop{ false };
   std::atomic<std::size_t> done{ 0 };
-  std::future<void> work = std::async(std::launch::async,
+  WatchedWork(
+    progress, stop, [&] { return static_cast<double>(done) / std::max<std::size_t>(count, 1); },
     [&]
     {
       ForEach(parallelFor, count,
@@ -27,24 +77,53 @@ void WatchedFor(std::size_t count, const ParallelFor& parallelFor, const Progres
           ++done;
         });
     });
-  try
+}
+
+void WatchedFor(const std::vector<double>& work, const ParallelFor& parallelFor,
+  const Progress& progress, const WatchedBody& body)
+{
+  const std::vector<std::size_t> order = GreatestFirst(work);
+  const double all = std::max(std::accumulate(work.begin(), work.end(), 0.0), 1e-300);
+  FirstFault fault(work.size());
+  StopFlag stop{ false };
+  std::atomic<double> done{ 0.0 };
+  std::atomic<std::size_t> next{ 0 };
+  const auto doNext = [&]
   {
-    while (work.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    const std::size_t index = order[next++];
+    if (!fault.IsBefore(index))
     {
-      progress(static_cast<double>(done) / std::max<std::size_t>(count, 1));
+      fault.Guard(index,
+        [&](std::size_t i)
+        {
+          ThrowIfStopped(stop);
+          body(i, stop);
+        });
     }
-    work.get();
-  }
-  catch (...)
-  {
-    stop = true;
-    if (work.valid())
+    Add(done, work[index]);
+  };
+  WatchedWork(
+    progress, stop, [&] { return done / all; },
+    [&]
     {
-      work.wait();
-    }
-    throw;
-  }
-  progress(1.0);
+      // A parallel loop serves its indices in an order of its own: each of them takes what is next.
+      parallelFor(work.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (; begin < end; ++begin)
+          {
+            doNext();
+          }
+        });
+      fault.Rethrow();
+    });
+}
+
+void Watched(const Progress& progress, const std::function<void(const StopFlag& stop)>& body)
+{
+  StopFlag stop{ false };
+  WatchedWork(
+    progress, stop, [] { return 0.0; }, [&] { body(stop); });
 }
 
 }

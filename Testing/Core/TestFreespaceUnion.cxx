@@ -391,3 +391,53 @@ TEST(FreespaceUnion, AwkwardInput)
   EXPECT_NO_THROW(FreespaceUnion(two, Options(2, 0.01)));
   EXPECT_THROW(FreespaceUnion(two, Options(3, 0.01)), Error);
 }
+
+TEST(FreespaceUnion, StopsWhereverItIsBuilt)
+{
+  const std::vector<DisparityMap> maps = RandomMaps(3, 8);
+  int events = 0;
+  double last = 0.0;
+  const auto build = [&](int stopAt)
+  {
+    events = 0;
+    last = 0.0;
+    return FreespaceUnion(maps, Options(1, 0.01), SerialFor,
+      Progress(
+        [&](double fraction)
+        {
+          EXPECT_GE(fraction, last);
+          last = fraction;
+          return ++events != stopAt;
+        }));
+  };
+  build(0);
+  EXPECT_EQ(last, 1.0);
+  for (int stopAt = 1; stopAt <= 4; ++stopAt)
+  {
+    EXPECT_THROW(build(stopAt), Aborted);
+    EXPECT_EQ(events, stopAt);
+  }
+  StopFlag stop(true);
+  EXPECT_THROW(ViewFreespace(maps[0], stop), Aborted);
+  EXPECT_THROW(FeatureHull(maps[0].points, 0.0, stop), Aborted);
+}
+
+TEST(FreespaceUnion, AStoppedIndexIsMadeAnew)
+{
+  const FreespaceUnion phi(RandomMaps(3, 20), Options(1, 0.01));
+  int events = 0;
+  const Progress third([&](double) { return ++events != 3; });
+  EXPECT_THROW(phi.IndexForPoints(third), Aborted);
+  EXPECT_EQ(events, 3);
+  double last = 0.0;
+  const Progress whole(
+    [&](double fraction)
+    {
+      EXPECT_GE(fraction, last);
+      last = fraction;
+      return true;
+    });
+  phi.IndexForPoints(whole);
+  EXPECT_EQ(last, 1.0);
+  EXPECT_TRUE(phi.IsFree(Vector3d::Constant(50)));
+}

@@ -31,6 +31,18 @@ TEST(WatchedFor, DoesAllOnce)
   }
 }
 
+TEST(WatchedFor, BeginsWithTheMostWork)
+{
+  const std::vector<double> work = { 1, 5, 0, 5, 2 };
+  std::vector<std::size_t> order;
+  WatchedFor(work, SerialFor, {}, [&](std::size_t i, const StopFlag&) { order.push_back(i); });
+  EXPECT_EQ(order, (std::vector<std::size_t>{ 1, 3, 4, 0, 2 }));
+  std::vector<int> calls(work.size(), 0);
+  WatchedFor(work, TwoThreads, {}, [&](std::size_t i, const StopFlag&) { ++calls[i]; });
+  EXPECT_EQ(calls, std::vector<int>(work.size(), 1));
+  WatchedFor(std::vector<double>(), TwoThreads, {}, [](std::size_t, const StopFlag&) { FAIL(); });
+}
+
 TEST(WatchedFor, ShowsProgressFromTheCallersThreadAndStopsLongBodies)
 {
   const std::thread::id caller = std::this_thread::get_id();
@@ -60,20 +72,71 @@ TEST(WatchedFor, ShowsProgressFromTheCallersThreadAndStopsLongBodies)
 
 TEST(WatchedFor, TellsTheFaultThatCameFirst)
 {
-  try
+  const auto fault = [](std::size_t i, const StopFlag&)
   {
-    WatchedFor(5, SerialFor, {},
-      [](std::size_t i, const StopFlag&)
+    if (i >= 3)
+    {
+      throw Error("fault " + std::to_string(i));
+    }
+  };
+  const std::vector<double> work = { 1, 2, 3, 4, 5 };
+  for (const bool isWeighed : { false, true })
+  {
+    for (const ParallelFor& parallelFor : { ParallelFor(SerialFor), ParallelFor(TwoThreads) })
+    {
+      try
       {
-        if (i >= 3)
-        {
-          throw Error("fault " + std::to_string(i));
-        }
-      });
-    FAIL() << "no fault was told";
+        isWeighed ? WatchedFor(work, parallelFor, {}, fault)
+                  : WatchedFor(5, parallelFor, {}, fault);
+        FAIL() << "no fault was told";
+      }
+      catch (const Error& error)
+      {
+        EXPECT_STREQ(error.what(), "fault 3");
+      }
+    }
   }
-  catch (const Error& error)
-  {
-    EXPECT_STREQ(error.what(), "fault 3");
-  }
+}
+
+TEST(WatchedFor, ProgressMovesWithTheWork)
+{
+  std::atomic<bool> isFirstDone{ false };
+  double most = 0.0;
+  const Progress progress(
+    [&](double fraction)
+    {
+      most = std::max(most, fraction);
+      return !(isFirstDone && fraction >= 0.9);
+    });
+  // The last waits until it is told to stop: nine tenths of the work are done then.
+  EXPECT_THROW(WatchedFor(std::vector<double>{ 1, 9 }, SerialFor, progress,
+                 [&](std::size_t i, const StopFlag& stop)
+                 {
+                   isFirstDone = true;
+                   while (i == 0)
+                   {
+                     ThrowIfStopped(stop);
+                     std::this_thread::yield();
+                   }
+                 }),
+    Aborted);
+  EXPECT_DOUBLE_EQ(most, 0.9);
+}
+
+TEST(Watched, DoesItAndStopsIt)
+{
+  bool isDone = false;
+  Watched({}, [&](const StopFlag&) { isDone = true; });
+  EXPECT_TRUE(isDone);
+  int looks = 0;
+  EXPECT_THROW(Watched(Progress([&](double) { return ++looks < 2; }),
+                 [](const StopFlag& stop)
+                 {
+                   while (true)
+                   {
+                     ThrowIfStopped(stop);
+                     std::this_thread::yield();
+                   }
+                 }),
+    Aborted);
 }

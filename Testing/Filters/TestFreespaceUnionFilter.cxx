@@ -6,6 +6,8 @@
 #include "vtkFreespaceUnion.h"
 #include "vtkSimplifySurfaceFilter.h"
 
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkClipPolyData.h>
@@ -17,6 +19,7 @@
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkMultiBlockDataSetAlgorithm.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -29,8 +32,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
+#include <vector>
 
 using namespace freespace;
 
@@ -222,6 +227,188 @@ TEST(vtkFreespaceUnion, BatchesAgreeWithSingleQueries)
   EXPECT_EQ(errors->Count, 2);
 }
 
+namespace
+{
+
+// Stops a function's building, or what is done after it, at the n-th progress event there.
+class Stopper
+{
+public:
+  Stopper(vtkObject* worker, vtkFreespaceUnion* phi, bool inBuilding, int at)
+    : Phi(phi)
+    , IsInBuilding(inBuilding)
+    , Left(at)
+  {
+    worker->AddObserver(vtkCommand::ProgressEvent, this, &Stopper::See);
+  }
+
+  bool HasStopped = false;
+  int After = 0;
+
+private:
+  void See(vtkObject* caller, unsigned long, void*)
+  {
+    this->After += this->HasStopped;
+    if (this->Phi->IsBuilt() != this->IsInBuilding && this->Left-- == 1)
+    {
+      this->HasStopped = true;
+      auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+      algorithm ? algorithm->SetAbortExecute(1) : this->Phi->SetAbortExecute(1);
+    }
+  }
+
+  vtkFreespaceUnion* Phi;
+  bool IsInBuilding;
+  int Left;
+};
+
+}
+
+TEST(vtkFreespaceUnion, BuildingIsWatched)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 40));
+  std::vector<double> seen;
+  vtkNew<vtkCallbackCommand> see;
+  see->SetClientData(&seen);
+  see->SetCallback([](vtkObject*, unsigned long, void* list, void* fraction)
+    { static_cast<std::vector<double>*>(list)->push_back(*static_cast<double*>(fraction)); });
+  phi->AddObserver(vtkCommand::ProgressEvent, see);
+  EXPECT_FALSE(phi->IsBuilt());
+  phi->Update();
+  EXPECT_TRUE(phi->IsBuilt());
+  ASSERT_GE(seen.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.front(), 0.0);
+  EXPECT_EQ(seen.back(), 1.0);
+  seen.clear();
+  phi->Update(); // nothing to do
+  EXPECT_TRUE(seen.empty());
+}
+
+TEST(vtkFreespaceUnion, BuildingStopsAtOnce)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 20);
+  for (int at = 1; at <= 4; ++at)
+  {
+    vtkNew<vtkFreespaceUnion> phi;
+    vtkNew<Errors> errors;
+    phi->SetMaps(maps);
+    phi->AddObserver(vtkCommand::ErrorEvent, errors);
+    Stopper stopper(phi, phi, true, at);
+    phi->Update();
+    EXPECT_TRUE(stopper.HasStopped);
+    EXPECT_EQ(stopper.After, 0);
+    EXPECT_FALSE(phi->IsBuilt());
+    EXPECT_EQ(errors->Count, 0);
+    EXPECT_TRUE(phi->IsValid()); // built anew
+    double x[3] = { 0, 0, 0 };
+    EXPECT_LT(std::abs(phi->EvaluateFunction(x)), 10);
+  }
+}
+
+TEST(vtkFreespaceUnion, ObserversMayAskWhileItIsBuilt)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 2));
+  vtkNew<vtkCallbackCommand> ask;
+  ask->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      double bounds[6];
+      vtkFreespaceUnion::SafeDownCast(caller)->GetBounds(bounds);
+      EXPECT_GT(bounds[0], bounds[1]); // there are none yet
+    });
+  phi->AddObserver(vtkCommand::ProgressEvent, ask);
+  phi->Update();
+  EXPECT_TRUE(phi->IsBuilt());
+}
+
+TEST(vtkFreespaceUnion, BatchesStopAtOnceAndLeaveNoResults)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 20);
+  vtkNew<vtkPoints> first, last;
+  vtkNew<vtkDoubleArray> radii;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const Eigen::Vector3d a = 1.5 * Eigen::Vector3d::Random(), b = 1.5 * Eigen::Vector3d::Random();
+    first->InsertNextPoint(a.data());
+    last->InsertNextPoint(b.data());
+    radii->InsertNextValue(0.1);
+  }
+  for (const bool inBuilding : { true, false })
+  {
+    for (int kind = 0; kind < 3; ++kind)
+    {
+      vtkNew<vtkFreespaceUnion> phi;
+      phi->SetMaps(maps);
+      vtkNew<vtkUnsignedCharArray> free;
+      vtkNew<vtkDoubleArray> fractions;
+      const auto ask = [&]
+      {
+        return kind == 0 ? phi->ArePointsFree(first, free)
+          : kind == 1    ? phi->FirstBlocked(first, last, fractions)
+                         : phi->AreSpheresFree(first, radii, free);
+      };
+      for (const int at : { 1, 3, 0 }) // which no event is
+      {
+        phi->Modified();
+        Stopper stopper(phi, phi, inBuilding, at);
+        const bool isDone = ask();
+        phi->RemoveObservers(vtkCommand::ProgressEvent);
+        EXPECT_EQ(stopper.HasStopped, at > 0);
+        EXPECT_EQ(stopper.After, 0);
+        EXPECT_EQ(isDone, at == 0);
+        EXPECT_EQ(free->GetNumberOfValues() + fractions->GetNumberOfValues(), isDone ? 5000 : 0);
+      }
+    }
+  }
+}
+
+// What feeds the function is stopped too, and asked again the next time.
+TEST(vtkFreespaceUnion, PassesTheWishToStopOnToItsPipeline)
+{
+  class SlowSource : public vtkMultiBlockDataSetAlgorithm
+  {
+  public:
+    static SlowSource* New() { return new SlowSource; }
+    SlowSource() { this->SetNumberOfInputPorts(0); }
+    int RequestData(
+      vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override
+    {
+      for (this->Steps = 0; this->Steps < 100 && !this->GetAbortExecute(); ++this->Steps)
+      {
+        this->UpdateProgress(this->Steps / 100.0);
+      }
+      if (!this->GetAbortExecute())
+      {
+        vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(MakeMaps(3, 3));
+      }
+      return 1;
+    }
+    int Steps = 0;
+  };
+  vtkNew<SlowSource> source;
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(20);
+  {
+    ProgressWatch progress(contour, 0.06);
+    contour->Update();
+    EXPECT_GE(progress.Last, 0.06);
+    EXPECT_TRUE(progress.IsMonotone);
+  }
+  EXPECT_GT(source->Steps, 10);
+  EXPECT_LT(source->Steps, 60);
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+  contour->Modified();
+  contour->Update();
+  EXPECT_EQ(source->Steps, 100);
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 100);
+}
+
 TEST(vtkFreespaceUnion, TellsWhatIsWrong)
 {
   vtkNew<vtkFreespaceUnion> phi;
@@ -366,6 +553,39 @@ TEST(vtkBisectionContourFilter, ProgressesSmoothly)
   EXPECT_TRUE(progress.IsMonotone);
   EXPECT_LT(progress.Greatest, 0.1);
   EXPECT_EQ(progress.Last, 1.0);
+}
+
+TEST(vtkBisectionContourFilter, StopsWhileTheUnionIsBuilt)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 20);
+  for (int at = 1; at <= 4; ++at)
+  {
+    vtkNew<vtkFreespaceUnion> phi;
+    phi->SetMaps(maps);
+    vtkNew<vtkBisectionContourFilter> contour;
+    contour->SetImplicitFunction(phi);
+    contour->SetCells(20);
+    vtkNew<Errors> errors;
+    contour->AddObserver(vtkCommand::ErrorEvent, errors);
+    {
+      Stopper stopper(contour, phi, true, at);
+      contour->EstimateMemory();
+      EXPECT_TRUE(stopper.HasStopped);
+      EXPECT_FALSE(phi->IsBuilt());
+      contour->RemoveObservers(vtkCommand::ProgressEvent);
+    }
+    Stopper stopper(contour, phi, true, at + 1); // the first is the pipeline's own
+    contour->Update();
+    EXPECT_TRUE(stopper.HasStopped);
+    EXPECT_EQ(stopper.After, 0);
+    EXPECT_FALSE(phi->IsBuilt());
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(errors->Count, 0);
+    contour->Modified();
+    contour->Update();
+    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 100);
+  }
 }
 
 TEST(vtkAppendPiecesFilter, PiecesTogetherAreTheWhole)

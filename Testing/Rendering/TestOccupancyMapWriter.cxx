@@ -5,6 +5,8 @@
 #include "ViewBlocks.h"
 #include "vtkFreespaceUnion.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -12,10 +14,12 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <random>
+#include <vector>
 
 using namespace freespace;
 namespace fs = std::filesystem;
@@ -95,8 +99,10 @@ void ExpectAgreement(const octomap::OcTree& tree)
     ASSERT_EQ(node != nullptr, looked) << point.transpose();
     if (node)
     {
-      const bool free = phi->EvaluateFunction(point.data()) > 0;
+      const bool free = phi->IsPointFree(point.data());
       EXPECT_EQ(tree.isNodeOccupied(node), !free) << point.transpose();
+      const double value = phi->EvaluateFunction(point.data());
+      EXPECT_TRUE(free == (value > 0) || std::abs(value) < 1e-12) << point.transpose();
       ++counts[free ? 1 : 2];
     }
     else
@@ -131,6 +137,69 @@ TEST(OccupancyMapWriter, FullTreeAgreesWithPhi)
   const auto* tree = dynamic_cast<octomap::OcTree*>(read.get());
   ASSERT_NE(tree, nullptr);
   ExpectAgreement(*tree);
+  fs::remove_all(folder);
+}
+
+namespace
+{
+
+// What a writer tells of its progress, and where it is asked to stop.
+struct Watcher
+{
+  double stopAt = 2.0;
+  std::vector<double> seen = {};
+  int after = 0;
+
+  static void See(vtkObject* caller, unsigned long, void* data, void* fraction)
+  {
+    auto* writer = vtkAlgorithm::SafeDownCast(caller);
+    auto* self = static_cast<Watcher*>(data);
+    self->after += writer->GetAbortExecute() != 0;
+    self->seen.push_back(*static_cast<double*>(fraction));
+    if (self->seen.back() >= self->stopAt)
+    {
+      writer->SetAbortExecute(1);
+    }
+  }
+};
+
+}
+
+TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
+{
+  const std::string folder = TemporaryFolder();
+  for (const char* ending : { ".bt", ".ot" })
+  {
+    std::size_t whole = 0;
+    // While Phi is built, the maps are drawn, the map is filled, pruned and written.
+    for (const double stopAt : { 2.0, 0.0, 0.1, 0.3, 0.41, 0.6, 0.8, 0.9, 0.91 })
+    {
+      vtkNew<vtkOccupancyMapWriter> writer;
+      writer->SetInputDataObject(Maps());
+      writer->SetFileName(folder + "/map" + ending);
+      writer->SetResolution(0.02);
+      writer->SetHullMargin(0.2);
+      Watcher watcher{ stopAt };
+      vtkNew<vtkCallbackCommand> see;
+      see->SetClientData(&watcher);
+      see->SetCallback(Watcher::See);
+      writer->AddObserver(vtkCommand::ProgressEvent, see);
+      EXPECT_EQ(writer->Write(), stopAt > 1);
+      EXPECT_TRUE(std::is_sorted(watcher.seen.begin(), watcher.seen.end()));
+      EXPECT_EQ(fs::remove(folder + "/map" + ending), stopAt > 1);
+      EXPECT_TRUE(fs::is_empty(folder));
+      if (stopAt > 1)
+      {
+        whole = watcher.seen.size();
+        EXPECT_GT(whole, 100u);
+        EXPECT_EQ(watcher.seen.back(), 1.0);
+        continue;
+      }
+      EXPECT_EQ(writer->GetErrorCode(), vtkErrorCode::UserError);
+      EXPECT_LE(watcher.seen.size(), whole);
+      EXPECT_EQ(watcher.after, stopAt > 0 ? 0 : 1); // the first event is the pipeline's own
+    }
+  }
   fs::remove_all(folder);
 }
 

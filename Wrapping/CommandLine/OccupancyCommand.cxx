@@ -92,10 +92,12 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetResolution(settings->resolution);
       writer->SetHullMargin(settings->hullMargin);
       writer->SetMinimumViews(settings->minimumViews);
-      {
-        const SilentStandardError silent;
-        session.Write(writer);
-      }
+      session.Watch(writer, "occupancy",
+        [&]
+        {
+          const SilentStandardError silent;
+          writer->Write();
+        });
       session.Tell("wrote " + settings->output);
     }));
 }

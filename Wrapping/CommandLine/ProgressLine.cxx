@@ -19,7 +19,12 @@ ProgressLine::ProgressLine(const std::string& stage, bool quiet)
   , Look(quiet                  ? Style::None
         : isatty(STDERR_FILENO) ? Style::Bar
                                 : Style::Lines)
+  , Out(fdopen(dup(STDERR_FILENO), "w"))
 {
+  if (!this->Out)
+  {
+    this->Look = Style::None;
+  }
   this->Show(0);
 }
 
@@ -27,8 +32,11 @@ ProgressLine::~ProgressLine()
 {
   if (this->Look == Style::Bar)
   {
-    std::fprintf(stderr, "\r\033[K"); // leaves no unfinished bar behind
-    std::fflush(stderr);
+    std::fprintf(this->Out, "\r\033[K"); // leaves no unfinished bar behind
+  }
+  if (this->Out)
+  {
+    std::fclose(this->Out);
   }
 }
 
@@ -46,13 +54,13 @@ void ProgressLine::Show(double fraction)
   {
     const std::string bar(percent * barWidth / 100, '=');
     std::fprintf(
-      stderr, "\r%-12s [%-*s] %3d%%", this->Stage.c_str(), barWidth, bar.c_str(), percent);
+      this->Out, "\r%-12s [%-*s] %3d%%", this->Stage.c_str(), barWidth, bar.c_str(), percent);
   }
   else if (this->Shown > 0 && this->Shown < 100)
   {
-    std::fprintf(stderr, "%s: %d%%\n", this->Stage.c_str(), this->Shown);
+    std::fprintf(this->Out, "%s: %d%%\n", this->Stage.c_str(), this->Shown);
   }
-  std::fflush(stderr);
+  std::fflush(this->Out);
 }
 
 void ProgressLine::Finish()
@@ -62,9 +70,9 @@ void ProgressLine::Finish()
     return;
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - this->Started;
-  std::fprintf(stderr, "%s%s: done in %.1f s\n", this->Look == Style::Bar ? "\r\033[K" : "",
+  std::fprintf(this->Out, "%s%s: done in %.1f s\n", this->Look == Style::Bar ? "\r\033[K" : "",
     this->Stage.c_str(), taken.count());
-  std::fflush(stderr);
+  std::fflush(this->Out);
   this->Look = Style::None;
 }
 

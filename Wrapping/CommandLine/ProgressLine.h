@@ -3,13 +3,14 @@
 #define freespace_ProgressLine_h
 
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 namespace freespace
 {
 
 /// How far a stage has come, on standard error: a bar that is redrawn on a terminal, a plain line at
-/// each quarter in a log, nothing when quiet.
+/// each quarter in a log, nothing when quiet. It goes where the standard error went when the stage began.
 class ProgressLine
 {
 public:
@@ -34,6 +35,7 @@ private:
 
   std::string Stage;
   Style Look;
+  std::FILE* Out;
   int Shown = -1; // percent
   std::chrono::steady_clock::time_point Started = std::chrono::steady_clock::now();
 };

@@ -67,7 +67,7 @@ std::vector<double> ReadRow(std::string line)
 }
 
 // Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
-std::vector<double> ReadTable(const std::string& fileName, std::size_t columns)
+std::vector<double> ReadTable(Session& session, const std::string& fileName, std::size_t columns)
 {
   std::ifstream file(fileName);
   if (!file || std::filesystem::is_directory(fileName))
@@ -79,6 +79,7 @@ std::vector<double> ReadTable(const std::string& fileName, std::size_t columns)
   bool isFirst = true;
   for (int row = 1; std::getline(file, line); ++row)
   {
+    session.ThrowIfFailed();                            // on an interrupt
     if (row == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
     {
       line.erase(0, 3);
@@ -108,9 +109,9 @@ std::vector<double> ReadTable(const std::string& fileName, std::size_t columns)
   return numbers;
 }
 
-void TellPoints(vtkFreespaceUnion* phi, const std::string& fileName)
+void TellPoints(Session& session, vtkFreespaceUnion* phi, const std::string& fileName)
 {
-  const std::vector<double> numbers = ReadTable(fileName, 3);
+  const std::vector<double> numbers = ReadTable(session, fileName, 3);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (std::size_t i = 0; i < numbers.size(); i += 3)
@@ -118,7 +119,7 @@ void TellPoints(vtkFreespaceUnion* phi, const std::string& fileName)
     points->InsertNextPoint(&numbers[i]);
   }
   vtkNew<vtkUnsignedCharArray> free;
-  phi->ArePointsFree(points, free);
+  session.Watch(phi, "query", [&] { phi->ArePointsFree(points, free); });
   std::cout << "free\n";
   for (vtkIdType i = 0; i < free->GetNumberOfValues(); ++i)
   {
@@ -126,9 +127,9 @@ void TellPoints(vtkFreespaceUnion* phi, const std::string& fileName)
   }
 }
 
-void TellSegments(vtkFreespaceUnion* phi, const std::string& fileName)
+void TellSegments(Session& session, vtkFreespaceUnion* phi, const std::string& fileName)
 {
-  const std::vector<double> numbers = ReadTable(fileName, 6);
+  const std::vector<double> numbers = ReadTable(session, fileName, 6);
   vtkNew<vtkPoints> first, last;
   first->SetDataTypeToDouble();
   last->SetDataTypeToDouble();
@@ -138,7 +139,7 @@ void TellSegments(vtkFreespaceUnion* phi, const std::string& fileName)
     last->InsertNextPoint(&numbers[i + 3]);
   }
   vtkNew<vtkDoubleArray> fractions;
-  phi->FirstBlocked(first, last, fractions);
+  session.Watch(phi, "query", [&] { phi->FirstBlocked(first, last, fractions); });
   std::cout << "first_blocked\n";
   std::cout.precision(10);
   for (vtkIdType i = 0; i < fractions->GetNumberOfValues(); ++i)
@@ -188,12 +189,9 @@ void AddQueryCommand(CLI::App& program, Session& session)
       phi->SetMaps(ReadMaps(session, settings->maps));
       phi->SetHullMargin(settings->hullMargin);
       phi->SetMinimumViews(settings->minimumViews);
-      if (!phi->IsValid())
-      {
-        session.ThrowIfFailed();
-      }
-      settings->points.empty() ? TellSegments(phi, settings->segments)
-                               : TellPoints(phi, settings->points);
+      session.Watch(phi, "build", [&] { phi->Update(); });
+      settings->points.empty() ? TellSegments(session, phi, settings->segments)
+                               : TellPoints(session, phi, settings->points);
     }));
 }
 

@@ -9,6 +9,7 @@
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkFreespaceUnion.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
@@ -36,9 +37,17 @@ void OnInterrupt(int signal)
 void OnProgress(vtkObject* caller, unsigned long, void* line, void* fraction)
 {
   static_cast<ProgressLine*>(line)->Show(*static_cast<double*>(fraction));
-  if (interrupted)
+  if (!interrupted)
   {
-    vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+    return;
+  }
+  if (auto* algorithm = vtkAlgorithm::SafeDownCast(caller))
+  {
+    algorithm->SetAbortExecute(1);
+  }
+  else if (auto* phi = vtkFreespaceUnion::SafeDownCast(caller))
+  {
+    phi->SetAbortExecute(1);
   }
 }
 
@@ -48,16 +57,16 @@ ErrorCollector* Collector()
   return collector;
 }
 
-// Does an algorithm's work with its progress shown, its errors collected and interrupts passed on.
-void Watch(vtkAlgorithm* algorithm, ProgressLine& line, const std::function<void()>& work)
+// Does some work with its progress shown, its errors collected and interrupts passed on.
+void DoWatched(vtkObject* worker, ProgressLine& line, const std::function<void()>& work)
 {
   Collector()->Clear();
   vtkNew<vtkCallbackCommand> onProgress;
   onProgress->SetCallback(OnProgress);
   onProgress->SetClientData(&line);
-  const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, onProgress);
+  const unsigned long tag = worker->AddObserver(vtkCommand::ProgressEvent, onProgress);
   work();
-  algorithm->RemoveObserver(tag);
+  worker->RemoveObserver(tag);
 }
 
 }
@@ -100,10 +109,17 @@ void Session::Do()
   this->Action();
 }
 
-void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
+void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)
 {
   ProgressLine line(stage, this->Quiet);
-  Watch(algorithm, line,
+  DoWatched(worker, line, work);
+  this->ThrowIfFailed();
+  line.Finish();
+}
+
+void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
+{
+  this->Watch(algorithm, stage,
     [&]
     {
       if (pieces > 1)
@@ -115,15 +131,13 @@ void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, 
         algorithm->Update();
       }
     });
-  this->ThrowIfFailed();
-  line.Finish();
 }
 
 void Session::Write(vtkWriter* writer)
 {
   ProgressLine line("write", this->Quiet);
   bool written = false;
-  Watch(writer, line, [&] { written = writer->Write() != 0; });
+  DoWatched(writer, line, [&] { written = writer->Write() != 0; });
   this->ThrowIfFailed();
   if (!written)
   {

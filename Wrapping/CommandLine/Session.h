@@ -8,6 +8,7 @@
 #include <string>
 
 class vtkAlgorithm;
+class vtkObject;
 class vtkWriter;
 
 namespace freespace
@@ -39,6 +40,10 @@ public:
   /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
   /// first error said.
   void Run(vtkAlgorithm* algorithm, const std::string& stage, int piece = 0, int pieces = 1);
+
+  /// Does some work of an algorithm, or of a vtkFreespaceUnion, under a stage's name: its progress is
+  /// shown, and an interrupt sets its AbortExecute. Throws Error like Run.
+  void Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work);
 
   /// Runs a writer. Throws Error like Run.
   void Write(vtkWriter* writer);

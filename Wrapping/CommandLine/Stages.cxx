@@ -271,8 +271,8 @@ bool ContourStage::Stream(
   {
     return false;
   }
-  const double needed = contour->EstimateMemory();
-  session.ThrowIfFailed();
+  double needed = 0;
+  session.Watch(contour, "estimate", [&] { needed = contour->EstimateMemory(); });
   if (needed <= limit || needed > LargestPly)
   {
     return false;
