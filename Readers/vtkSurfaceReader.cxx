@@ -3,6 +3,8 @@
 
 #include "Error.h"
 #include "FileEnding.h"
+#include "SurfaceViewpoint.h"
+#include "ViewBlocks.h"
 #include "WholeFile.h"
 
 #include <vtkCallbackCommand.h>
@@ -14,6 +16,7 @@
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
+#include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -63,6 +66,20 @@ vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
     "Cannot read '" + fileName + "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
 }
 
+// A .vtp has it in its field data, which came with the rest.
+void AddViewpoint(vtkAlgorithm* reader, vtkPolyData* surface)
+{
+  auto* ply = vtkPLYReader::SafeDownCast(reader);
+  vtkStringArray* comments = ply ? ply->GetComments() : nullptr;
+  for (vtkIdType i = 0; comments && i < comments->GetNumberOfValues(); ++i)
+  {
+    if (const auto viewpoint = freespace::ViewpointFromComment(comments->GetValue(i)))
+    {
+      freespace::AddCamera(surface, *viewpoint, "");
+    }
+  }
+}
+
 }
 
 vtkSurfaceReader::vtkSurfaceReader()
@@ -88,6 +105,7 @@ int vtkSurfaceReader::RequestData(
         "Cannot read " + this->FileName + ": it is truncated, or holds no surface.");
     }
     output->ShallowCopy(triangles->GetOutput());
+    AddViewpoint(reader, output);
   }
   catch (const std::exception& error)
   {

@@ -4,6 +4,8 @@
 #include "AtomicOutput.h"
 #include "CameraForVTK.h"
 #include "Error.h"
+#include "FramePoints.h"
+#include "SurfaceViewpoint.h"
 #include "ViewBlocks.h"
 
 #include <vtkActor.h>
@@ -31,7 +33,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 vtkStandardNewMacro(vtkSurfacePicture);
@@ -48,6 +49,8 @@ struct vtkSurfacePicture::Stage
 
 namespace
 {
+
+using namespace freespace;
 
 constexpr int LargestWindow = 8192; // pixels along a side; every OpenGL 3.2 of today has this
 
@@ -90,42 +93,27 @@ bool HasColours(vtkDataSetAttributes* attributes)
   return colours && colours->GetNumberOfComponents() >= 3;
 }
 
-// From that direction, as near as lets every point in, with a small margin. A point at (x, y, z)
-// right, above and in front of the middle is seen by a camera at (a, b, -d) where |x - a| <= tanX
-// (z + d) and |y - b| <= tanY (z + d): four half-spaces, whose extremes over all points are enough.
-void LookAtWhole(
-  vtkPolyData* surface, double azimuth, double elevation, const int size[2], vtkCamera* camera)
+// From that direction, as near as lets every point in, with a small margin.
+Camera CameraAround(vtkPolyData* surface, double azimuth, double elevation, const int size[2])
 {
-  const double margin = 1.04;
   const double halfAngle = vtkMath::RadiansFromDegrees(15.0);
-  const double tanY = std::tan(halfAngle) / margin;
-  const double tanX = tanY * size[0] / size[1];
   const double around = vtkMath::RadiansFromDegrees(azimuth);
   const double above = vtkMath::RadiansFromDegrees(elevation);
   const Eigen::Vector3d right(-std::sin(around), std::cos(around), 0.0); // also straight from above
   const Eigen::Vector3d forward(
     -std::cos(above) * std::cos(around), -std::cos(above) * std::sin(around), -std::sin(above));
-  const Eigen::Vector3d up = right.cross(forward);
-  Eigen::Vector4d most = Eigen::Vector4d::Constant(-std::numeric_limits<double>::infinity());
+  Camera camera;
+  camera.width = size[0];
+  camera.height = size[1];
+  const double focal = size[1] / 2.0 / std::tan(halfAngle);
+  camera.K << focal, 0.0, size[0] / 2.0, 0.0, focal, size[1] / 2.0, 0.0, 0.0, 1.0;
+  camera.R << right.transpose(), forward.cross(right).transpose(), forward.transpose();
+  std::vector<Eigen::Vector3d> points(surface->GetNumberOfPoints());
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
-    const Eigen::Vector3d point(surface->GetPoint(i));
-    const double x = right.dot(point);
-    const double y = up.dot(point);
-    const double z = forward.dot(point);
-    most = most.cwiseMax(Eigen::Vector4d(x - tanX * z, -x - tanX * z, y - tanY * z, -y - tanY * z));
+    surface->GetPoint(i, points[i].data());
   }
-  const double distance =
-    std::max((most[0] + most[1]) / (2 * tanX), (most[2] + most[3]) / (2 * tanY));
-  const Eigen::Vector3d from =
-    (most[0] - most[1]) / 2 * right + (most[2] - most[3]) / 2 * up - distance * forward;
-  const Eigen::Vector3d focal = from + forward;
-  camera->SetUserTransform(nullptr);
-  camera->SetWindowCenter(0.0, 0.0);
-  camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(halfAngle));
-  camera->SetPosition(from.data());
-  camera->SetFocalPoint(focal.data());
-  camera->SetViewUp(up.data());
+  return FramePoints(camera, points);
 }
 
 // Darkens the near side of each jump in depth, so that blocks stand out from a board of their tone.
@@ -316,13 +304,18 @@ int vtkSurfacePicture::RequestData(
   stage.window->SetSize(samples * width, samples * height);
 
   vtkCamera* camera = stage.renderer->GetActiveCamera();
+  const std::optional<freespace::Camera> viewpoint =
+    this->UseViewpoint ? freespace::ViewpointOf(surface) : std::nullopt;
   if (stage.view)
   {
     freespace::ApplyCamera(*stage.view, camera);
   }
   else
   {
-    LookAtWhole(surface, this->Azimuth, this->Elevation, this->Size, camera);
+    freespace::ApplyCamera(viewpoint
+        ? freespace::WithSize(*viewpoint, width, height)
+        : CameraAround(surface, this->Azimuth, this->Elevation, this->Size),
+      camera);
   }
   stage.renderer->ResetCameraClippingRange();
   stage.window->Render();
@@ -382,6 +375,7 @@ void vtkSurfacePicture::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "View: " << (this->Shown->view ? "calibrated" : "default") << "\n";
   os << indent << "Size: " << this->Size[0] << " " << this->Size[1] << "\n";
+  os << indent << "UseViewpoint: " << this->UseViewpoint << "\n";
   os << indent << "Azimuth: " << this->Azimuth << "\n";
   os << indent << "Elevation: " << this->Elevation << "\n";
   os << indent << "Samples: " << this->Samples << "\n";

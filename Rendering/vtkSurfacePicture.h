@@ -9,8 +9,10 @@
  * (unsigned char point or cell scalars) they are shown. A mapper of one's own, for instance a
  * vtkViewDependentTextureMapper, is shown as it is, without lights.
  *
- * SetView or SetViewBlock choose a calibrated camera (see vtkCalibratedCamera) and its image size;
- * without one the surface is seen whole from Azimuth and Elevation, +z up, in a picture of Size.
+ * SetView or SetViewBlock choose a calibrated camera (see vtkCalibratedCamera) and its image size.
+ * Without one the picture is of Size: from the viewpoint that the surface knows (a camera in its field
+ * data, as the program's surfaces have it in .ply and .vtp), or else of the whole from Azimuth and
+ * Elevation, +z up.
  * Each pixel is the mean of Samples x Samples rays.
  *
  * The window lives on between updates: a second picture of the same surface costs little. An empty
@@ -57,7 +59,16 @@ public:
 
   ///@{
   /**
-   * Where a picture without a view is taken from, in degrees: the azimuth from +x towards +y around the
+   * Whether a picture without a view is taken from the surface's own viewpoint, where it has one. Default on.
+   */
+  vtkSetMacro(UseViewpoint, bool);
+  vtkGetMacro(UseViewpoint, bool);
+  vtkBooleanMacro(UseViewpoint, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Otherwise, where a picture without a view is taken from, in degrees: the azimuth from +x towards +y around the
    * surface, the elevation above the plane of x and y, -90 to 90. Defaults -123 and 33: obliquely from above.
    */
   vtkSetMacro(Azimuth, double);
@@ -108,6 +119,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int Size[2] = { 1280, 960 };
+  bool UseViewpoint = true;
   double Azimuth = -123.0;
   double Elevation = 33.0;
   int Samples = 2;

@@ -4,6 +4,7 @@
 #include "AtomicOutput.h"
 #include "Error.h"
 #include "FileEnding.h"
+#include "SurfaceViewpoint.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -39,6 +40,11 @@ void WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::s
   {
     vtkNew<vtkPLYWriter> writer;
     writer->SetFileTypeToBinary();
+    const std::string viewpoint = freespace::ViewpointComment(surface);
+    if (!viewpoint.empty())
+    {
+      writer->AddComment(viewpoint);
+    }
     WriteWith(writer.Get(), surface, fileName);
   }
   else if (ending == ".stl")

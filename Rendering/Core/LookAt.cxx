@@ -15,14 +15,4 @@ Camera LookAt(const Camera& like, const Eigen::Vector3d& center, const Eigen::Ve
   return camera;
 }
 
-Eigen::Vector3d MeanUp(const std::vector<Camera>& cameras)
-{
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  for (const Camera& camera : cameras)
-  {
-    up -= camera.R.row(1).transpose() / cameras.size();
-  }
-  return up.norm() > 0.05 ? up.normalized() : Eigen::Vector3d::Zero();
-}
-
 }

@@ -4,8 +4,6 @@
 
 #include "Camera.h"
 
-#include <vector>
-
 namespace freespace
 {
 
@@ -13,10 +11,6 @@ namespace freespace
 /// not be parallel to the line of sight.
 Camera LookAt(const Camera& like, const Eigen::Vector3d& center, const Eigen::Vector3d& middle,
   const Eigen::Vector3d& up);
-
-/// Where cameras have up, on the whole: the mean of their own, of length 1. Zero when they are turned
-/// every way, or when there is none.
-Eigen::Vector3d MeanUp(const std::vector<Camera>& cameras);
 
 }
 

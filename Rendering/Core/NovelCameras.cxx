@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NovelCameras.h"
 
+#include "CommonUp.h"
+#include "FramePoints.h"
 #include "LookAt.h"
 
 #include <algorithm>
@@ -14,102 +16,147 @@ namespace
 
 constexpr double degree = M_PI / 180;
 
-/// Where a camera is, as seen from the middle.
-struct Place
+/// A way to look, and what is up in a picture that is taken so.
+struct Gaze
 {
-  Eigen::Vector3d direction;
-  double distance = 0;
+  Eigen::Vector3d forward;
+  Eigen::Vector3d up;
 };
-
-std::vector<Place> PlacesAround(const std::vector<Camera>& cameras, const Eigen::Vector3d& middle)
-{
-  std::vector<Place> places;
-  for (const Camera& camera : cameras)
-  {
-    const Eigen::Vector3d from = camera.Center() - middle;
-    if (from.norm() > 0)
-    {
-      places.push_back({ from.normalized(), from.norm() });
-    }
-  }
-  return places;
-}
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Up is across the line of sight, so that looking straight down has one, too.
-Eigen::Vector3d UpFor(const Eigen::Vector3d& direction, const Eigen::Vector3d& up)
+Eigen::Vector3d Axis(const View& view)
 {
-  const Eigen::Vector3d across = up - up.dot(direction) * direction;
-  return across.norm() > 1e-3 ? across.normalized() : direction.unitOrthogonal();
+  return view.camera.R.row(2);
 }
 
-// Halfway to the nearest neighbour, or a little aside.
-Place PlaceBeside(const Place& place, const std::vector<Place>& places, const Eigen::Vector3d& up)
+// Up is across the line of sight, and the camera's own where that goes straight up or down.
+Eigen::Vector3d UpFor(
+  const Eigen::Vector3d& forward, const Eigen::Vector3d& up, const Camera& camera)
 {
-  const Place* neighbor = nullptr;
+  const Eigen::Vector3d across = up - up.dot(forward) * forward;
+  return across.norm() > 0.1 ? across.normalized() : Eigen::Vector3d(-camera.R.row(1));
+}
+
+// Halfway to the nearest neighbour, but not far from where the view sees well.
+Gaze GazeBeside(const View& view, const std::vector<View>& views, const Eigen::Vector3d& commonUp)
+{
+  const double most = 15 * degree;
+  const Eigen::Vector3d forward = Axis(view);
+  Eigen::Vector3d around = UpFor(forward, commonUp, view.camera);
   double least = 120 * degree;
-  for (const Place& other : places)
+  double aside = most;
+  for (const View& other : views)
   {
-    const double angle = Angle(place.direction, other.direction);
+    const double angle = Angle(forward, Axis(other));
     if (angle >= 10 * degree && angle < least)
     {
       least = angle;
-      neighbor = &other;
+      around = forward.cross(Axis(other)).normalized();
+      aside = std::min(most, angle / 2);
     }
   }
-  if (neighbor)
-  {
-    return { (place.direction + neighbor->direction).normalized(),
-      std::sqrt(place.distance * neighbor->distance) };
-  }
-  const Eigen::AngleAxisd aside(15 * degree, UpFor(place.direction, up));
-  return { aside * place.direction, place.distance };
+  const Eigen::Vector3d turned = Eigen::AngleAxisd(aside, around) * forward;
+  return { turned, UpFor(turned, commonUp, view.camera) };
 }
 
-double NearestAngle(const Place& place, const std::vector<Place>& chosen)
+double NearestAngle(const Gaze& gaze, const std::vector<Gaze>& chosen)
 {
   double least = M_PI;
-  for (const Place& other : chosen)
+  for (const Gaze& other : chosen)
   {
-    least = std::min(least, Angle(place.direction, other.direction));
+    least = std::min(least, Angle(gaze.forward, other.forward));
   }
   return least;
 }
 
+// Its own features, and how much its picture holds of all: some of each view's stand for them.
+double WorthOf(const View& view, const std::vector<View>& views)
+{
+  std::size_t held = 0;
+  std::size_t all = 0;
+  for (const View& other : views)
+  {
+    const std::size_t step = std::max<std::size_t>(1, other.points.size() / 100);
+    for (std::size_t i = 0; i < other.points.size(); i += step, ++all)
+    {
+      const Eigen::Vector3d& point = other.points[i];
+      held += view.camera.Depth(point) > 0 && view.camera.Sees(view.camera.Project(point));
+    }
+  }
+  return all == 0 ? 0 : double(view.points.size()) * held / all;
 }
 
-std::vector<Camera> NovelCameras(
-  const std::vector<Camera>& cameras, const Eigen::Vector3d& middle, int count)
+// The first of those that see about the most: the clusters of a scene see much the same.
+std::size_t BestView(const std::vector<View>& views)
 {
-  const std::vector<Place> places = PlacesAround(cameras, middle);
-  const Eigen::Vector3d up = MeanUp(cameras);
-  std::vector<Place> candidates;
-  for (const Place& place : places)
+  std::vector<double> worth;
+  for (const View& view : views)
   {
-    candidates.push_back(PlaceBeside(place, places, up));
+    worth.push_back(WorthOf(view, views));
   }
-  std::vector<Place> chosen;
-  std::vector<Camera> novel;
-  while (static_cast<int>(novel.size()) < count && !candidates.empty())
+  const double enough = 0.9 * *std::max_element(worth.begin(), worth.end());
+  return std::find_if(worth.begin(), worth.end(), [=](double one) { return one >= enough; }) -
+    worth.begin();
+}
+
+Camera Take(const Gaze& gaze, const std::vector<View>& views)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (const View& view : views)
   {
-    auto next = candidates.begin();
-    if (!chosen.empty())
+    if (Angle(gaze.forward, Axis(view)) < 60 * degree)
     {
-      next = std::max_element(candidates.begin(), candidates.end(),
-        [&chosen](const Place& a, const Place& b)
-        { return NearestAngle(a, chosen) < NearestAngle(b, chosen); });
-      if (NearestAngle(*next, chosen) < 5 * degree)
-      {
-        break;
-      }
+      points.insert(points.end(), view.points.begin(), view.points.end());
     }
-    chosen.push_back(*next);
-    novel.push_back(LookAt(
-      cameras[0], middle + next->distance * next->direction, middle, UpFor(next->direction, up)));
+  }
+  const Eigen::Vector3d middle = MedianPoint(points);
+  return FramePoints(
+    LookAt(views[0].camera, middle - gaze.forward, middle, gaze.up), points, Outliers::NotHeeded);
+}
+
+}
+
+std::vector<Camera> NovelCameras(const std::vector<View>& all, int count)
+{
+  std::vector<View> views;
+  std::vector<Camera> cameras;
+  for (const View& view : all)
+  {
+    cameras.push_back(view.camera);
+    if (!view.points.empty())
+    {
+      views.push_back(view);
+    }
+  }
+  if (views.empty())
+  {
+    return {};
+  }
+  const Eigen::Vector3d up = CommonUp(cameras);
+  std::vector<Gaze> candidates;
+  for (const View& view : views)
+  {
+    candidates.push_back(GazeBeside(view, views, up));
+  }
+  std::vector<Gaze> chosen;
+  std::vector<Camera> novel;
+  std::size_t next = BestView(views);
+  while (static_cast<int>(novel.size()) < count)
+  {
+    chosen.push_back(candidates[next]);
+    novel.push_back(Take(candidates[next], views));
+    const auto farthest = std::max_element(candidates.begin(), candidates.end(),
+      [&chosen](const Gaze& a, const Gaze& b)
+      { return NearestAngle(a, chosen) < NearestAngle(b, chosen); });
+    if (NearestAngle(*farthest, chosen) < 5 * degree)
+    {
+      break;
+    }
+    next = farthest - candidates.begin();
   }
   return novel;
 }

@@ -2,22 +2,23 @@
 #ifndef freespace_NovelCameras_h
 #define freespace_NovelCameras_h
 
-#include "Camera.h"
+#include "View.h"
 
 #include <vector>
 
 namespace freespace
 {
 
-/// Viewpoints that no camera has but from which much was seen: each is halfway between two neighbouring
-/// cameras, going round `middle`, at which it looks. The first lies beside the first camera, each further
-/// one as far as may be from those before.
+/// Viewpoints that no camera has but from which what was photographed shows itself well. Each looks the way
+/// of a view, turned by at most 15 degrees towards the next one that looks another way (by 10 to 120
+/// degrees; aside where there is none), upright (CommonUp.h), and from where the features of all views that look
+/// about the same way fill its picture (FramePoints.h): from near the cameras, not from behind, and
+/// without the rims that no camera saw. The first is beside the view that sees most, each further one looks
+/// as different a way as may be from those before.
 ///
-/// Neighbours are at least 10 and at most 120 degrees apart as seen from the middle; a camera without one is
-/// gone round by 15 degrees instead. At most `count` cameras are returned, fewer where there are fewer places,
-/// none without cameras. Intrinsics are those of the first camera.
-std::vector<Camera> NovelCameras(
-  const std::vector<Camera>& cameras, const Eigen::Vector3d& middle, int count);
+/// At most `count` cameras are returned, fewer where fewer ways were looked, none without features. Intrinsics and
+/// size are those of the first view's camera.
+std::vector<Camera> NovelCameras(const std::vector<View>& views, int count);
 
 /// The middle of points, by the median of each coordinate, which a few that are far off do not move.
 /// Zero without points.

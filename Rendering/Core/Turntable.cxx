@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Turntable.h"
 
+#include "CommonUp.h"
 #include "Error.h"
+#include "FramePoints.h"
 #include "LookAt.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace freespace
@@ -33,18 +36,15 @@ Eigen::Vector3d PointNearestToAxes(const std::vector<Camera>& cameras)
 
 }
 
-std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int count)
+std::vector<Camera> TurntableCameras(
+  const std::vector<Camera>& cameras, int count, const std::vector<Eigen::Vector3d>& points)
 {
   if (cameras.empty())
   {
     throw Error("A turntable needs a camera to begin with.");
   }
   const Eigen::Vector3d middle = PointNearestToAxes(cameras);
-  const Eigen::Vector3d up = MeanUp(cameras);
-  if (up.isZero())
-  {
-    throw Error("The cameras are turned every way: there is no up for a turntable.");
-  }
+  const Eigen::Vector3d up = CommonUp(cameras);
   double height = 0;
   double radius = 0;
   for (const Camera& camera : cameras)
@@ -57,11 +57,17 @@ std::vector<Camera> TurntableCameras(const std::vector<Camera>& cameras, int cou
   const Eigen::Vector3d start = (first - first.dot(up) * up).normalized();
   const Eigen::Vector3d side = up.cross(start);
   std::vector<Camera> path;
+  double farther = 0;
   for (int i = 0; i < count; ++i)
   {
     const double angle = 2 * M_PI * i / count;
     const Eigen::Vector3d around = std::cos(angle) * start + std::sin(angle) * side;
     path.push_back(LookAt(cameras[0], middle + radius * around + height * up, middle, up));
+    farther = std::max(farther, FarEnough(path.back(), middle, points));
+  }
+  for (Camera& camera : path)
+  {
+    camera = LookAt(camera, middle + farther * (camera.Center() - middle), middle, up);
   }
   return path;
 }

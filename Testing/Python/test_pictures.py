@@ -35,11 +35,11 @@ def picture(path):
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(int)
 
 
-def write_triangle(path, faces='3 0 1 2\n'):
+def write_triangle(path, faces='3 0 1 2\n', shift=0.0):
     count = faces.count('\n')
     path.write_text('ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n'
                     f'element face {count}\nproperty list uchar int vertex_indices\nend_header\n'
-                    f'0 0 0\n0.1 0 0\n0 0.1 0\n{faces}')
+                    f'{shift} 0 0\n{shift + 0.1} 0 0\n{shift} 0.1 0\n{faces}')
 
 
 def film_packets(path):
@@ -149,7 +149,15 @@ class TestView(WithScene):
         self.fails_to_view('nowhere/turn.ogv', at=('--turntable', '3'), output='nowhere/turn.ogv')
         self.fails_to_view('none.ply', mesh='none.ply', at=('--turntable', '3'), output='turn.ogv')
         self.fails_to_view('folder.ogv', at=('--turntable', '3'), output='folder.ogv')
+        self.fails_to_view('turn.mp4', at=('--turntable', '3'), output='turn.mp4')
+        self.fails_to_view('all.png', at=('--model', SCENE / 'novel'), output='all.png')
         self.fails_to_view('--rate', at=('--turntable', '3', '--rate', '0'), output='turn.ogv')
+
+    def test_without_a_viewpoint_from_near_the_cameras(self):
+        self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '-o', 'near.png')
+        seen = picture(self.folder / 'near.png')
+        self.assertEqual(seen.shape, (756, 1134, 3))
+        self.assertLess((seen == 255).all(axis=2).mean(), 0.6)
 
     def test_photographs_in_use_are_told(self):
         log = self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '--view', 'cluster1_c', '-o', 'c.png').stderr
@@ -201,7 +209,6 @@ class TestView(WithScene):
         self.fails_to_view('images', at=('--model', 'images'), output='out')
 
     def test_no_viewpoint_and_two(self):
-        self.fails_to_view('--turntable', at=())
         self.fails_to_view('--view', at=('--view', 'cluster1_c.jpg', '--turntable', '3'))
         self.fails_to_view('--turntable', at=('--turntable', '0'), output='out')
 
@@ -233,11 +240,57 @@ class TestRender(WithScene):
 
     def test_viewpoint(self):
         size = ('--size', '240x180')
-        usual = self.render(*size)
+        (self.folder / 'foreign.ply').write_bytes(re.sub(rb'comment freespace[^\n]*\n', b'', self.mesh_bytes()))
+        usual = self.render(*size, mesh='foreign.ply')
         np.testing.assert_array_equal(self.render(*size, '--azimuth', 237, '--elevation', 33), usual)
         for options in (('--azimuth', 30), ('--elevation', 80), ('--elevation', -20)):
             with self.subTest(options=options):
                 self.assertGreater(np.abs(self.render(*size, *options) - usual).mean(), 4)
+
+    def mesh_bytes(self):
+        return (self.folder / 'mesh.ply').read_bytes()
+
+    def test_a_surface_knows_its_viewpoint(self):
+        size = ('--size', '240x180')
+        own = self.render(*size)
+        self.assertGreater(np.abs(self.render(*size, '--azimuth', -123) - own).mean(), 4)
+        self.succeed('contour', 'maps.vtm', '-o', 'same.vtp', '--cells', 40)
+        np.testing.assert_array_equal(self.render(*size, mesh='same.vtp'), own)
+        damaged = re.sub(rb'(freespace-viewpoint) \S+', rb'\1 nan', self.mesh_bytes())
+        self.assertNotEqual(damaged, self.mesh_bytes())
+        (self.folder / 'damaged.ply').write_bytes(damaged)
+        np.testing.assert_array_equal(
+            self.render(*size, mesh='damaged.ply'), self.render(*size, '--azimuth', -123))
+
+    def test_default_picture_is_upright_whatever_way_the_axes_go(self):
+        """Turns the world by turning the model, and expects the same picture."""
+        own = self.render('--size', '240x180').astype(float)
+        turned = self.folder / 'turned'
+        shutil.copytree(self.folder / 'sparse', turned)
+        # x' = y, y' = z, z' = x: a camera's quaternion then is multiplied by (1, 1, 1, 1) / 2.
+        lines = []
+        for line in (turned / 'images.txt').read_text().splitlines():
+            words = line.split()
+            if len(words) == 10 and words[-1].endswith('.jpg'):
+                w, x, y, z = map(float, words[1:5])
+                words[1:5] = map(str, ((w - x - y - z) / 2, (w + x + y - z) / 2, (w - x + y + z) / 2,
+                                       (w + x - y + z) / 2))
+                line = ' '.join(words)
+            lines.append(line)
+        (turned / 'images.txt').write_text('\n'.join(lines) + '\n')
+        points = [line.split() for line in (turned / 'points3D.txt').read_text().splitlines() if line[0] != '#']
+        (turned / 'points3D.txt').write_text(
+            ''.join(' '.join([p[0], p[2], p[3], p[1], *p[4:]]) + '\n' for p in points))
+        scene = json.loads((self.folder / 'scene.json').read_text())
+        scene['model'] = 'turned'
+        (self.folder / 'turned.json').write_text(json.dumps(scene))
+        self.succeed('reconstruct', 'turned.json', '-o', 'turned.ply', '--cells', 40)
+        seen = self.render('--size', '240x180', mesh='turned.ply').astype(float)
+        self.assertLess(np.abs(seen - own).mean(), 3)
+
+    def test_scene_of_another_place(self):
+        write_triangle(self.folder / 'far.ply', shift=1e4)
+        self.fails('scene.json', 'render', 'far.ply', '-o', 'out.png', '--scene', 'scene.json')
 
     def test_between_the_cameras(self):
         seen = self.render('--scene', 'scene.json')

@@ -49,14 +49,35 @@ TEST(Turntable, GoesAroundWhatTheCamerasLookAt)
   }
 }
 
-TEST(Turntable, NeedsAMiddleAndAnUp)
+TEST(Turntable, NeedsAMiddle)
 {
   EXPECT_THROW(TurntableCameras({}, 4), Error);
   const Camera one = LookAt({ 4, 0, 2 }, { 0, 0, 0 });
   EXPECT_THROW(TurntableCameras({ one, one }, 4), Error);
-  Camera upsideDown = LookAt({ 0, -4, 0 }, { 0, 0, 0 });
-  const Camera upright = LookAt({ -4, 0, 0 }, { 0, 0, 0 });
-  upsideDown.R.topRows<2>() *= -1;
-  upsideDown.t.head<2>() *= -1;
-  EXPECT_THROW(TurntableCameras({ upright, upsideDown }, 4), Error);
+}
+
+TEST(Turntable, IsFarEnoughForAllPictures)
+{
+  const Eigen::Vector3d middle(10, 20, 3);
+  std::vector<Camera> cameras;
+  for (const double angle : { 0.0, 1.0, 2.0, 4.0 })
+  {
+    cameras.push_back(
+      LookAt(middle + Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 2), middle));
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 8; ++i)
+  {
+    points.push_back(middle + Eigen::Vector3d(i & 1 ? 9 : -9, i & 2 ? 9 : -9, i & 4 ? 1 : -1));
+  }
+  const std::vector<Camera> near = TurntableCameras(cameras, 5);
+  const std::vector<Camera> path = TurntableCameras(cameras, 5, points);
+  for (std::size_t i = 0; i < path.size(); ++i)
+  {
+    EXPECT_TRUE(path[i].R.isApprox(near[i].R, 1e-9)) << "in the same direction";
+    for (const Eigen::Vector3d& point : points)
+    {
+      EXPECT_TRUE(path[i].Depth(point) > 0 && path[i].Sees(path[i].Project(point)));
+    }
+  }
 }

@@ -2,11 +2,10 @@
 #include "Animation.h"
 
 #include "Error.h"
+#include "FileEnding.h"
 #include "Session.h"
 
 #include <vtkImageData.h>
-
-#include <filesystem>
 
 namespace freespace
 {
@@ -75,7 +74,7 @@ void Animation::Check(Session& session)
 
 bool Animation::CanWriteFile(const std::string& fileName)
 {
-  return std::filesystem::path(fileName).extension() == ".ogv";
+  return LowerCaseEnding(fileName) == ".ogv";
 }
 
 }

@@ -4,6 +4,7 @@
 #include "Ranks.h"
 #include "Session.h"
 #include "Stages.h"
+#include "Viewpoint.h"
 
 #include <vtkBisectionContourFilter.h>
 #include <vtkMultiBlockDataSet.h>
@@ -29,6 +30,7 @@ struct Settings
 void Contour(Session& session, const Settings& settings)
 {
   Ranks ranks;
+  vtkSmartPointer<vtkMultiBlockDataSet> maps;
   vtkSmartPointer<vtkPolyData> piece;
   bool isWritten = false;
   ranks.Together(
@@ -38,8 +40,10 @@ void Contour(Session& session, const Settings& settings)
       {
         CheckSurfaceName(settings.output);
       }
-      const auto filter = settings.contour.MakeFilter(ReadMaps(session, settings.maps));
-      isWritten = ranks.Count() == 1 && settings.contour.Stream(session, filter, settings.output);
+      maps = ReadMaps(session, settings.maps);
+      const auto filter = settings.contour.MakeFilter(maps);
+      isWritten =
+        ranks.Count() == 1 && settings.contour.Stream(session, filter, maps, settings.output);
       piece = isWritten ? nullptr
                         : settings.contour.RunPiece(session, filter, ranks.Rank(), ranks.Count());
     });
@@ -53,7 +57,9 @@ void Contour(Session& session, const Settings& settings)
     {
       if (ranks.Rank() == 0)
       {
-        WriteSurface(session, settings.contour.Join(session, pieces), settings.output);
+        const auto surface = settings.contour.Join(session, pieces);
+        AddViewpoint(maps, surface);
+        WriteSurface(session, surface, settings.output);
       }
     });
 }

@@ -2,10 +2,8 @@
 #include "Picture.h"
 
 #include "Error.h"
-#include "NovelCameras.h"
 #include "Session.h"
 #include "Stages.h"
-#include "ViewBlocks.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -32,29 +30,18 @@ void WritePicture(Session& session, vtkPolyData* surface, vtkPolyData* view,
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputDataObject(surface);
   picture->SetSize(look.size[0], look.size[1]);
+  picture->SetUseViewpoint(look.useViewpoint);
   picture->SetAzimuth(look.azimuth);
   picture->SetElevation(look.elevation);
   if (view)
   {
     picture->SetViewBlock(view);
+    session.ThrowIfFailed();
   }
   session.Run(picture, "render");
   picture->WritePNG(fileName);
   session.ThrowIfFailed();
   session.Tell("wrote " + fileName);
-}
-
-vtkSmartPointer<vtkPolyData> ViewBetween(
-  const std::vector<Camera>& cameras, const std::vector<Eigen::Vector3d>& points)
-{
-  const std::vector<Camera> novel = NovelCameras(cameras, MedianPoint(points), 1);
-  if (novel.empty())
-  {
-    return nullptr;
-  }
-  View view;
-  view.camera = novel[0];
-  return BlockFromView(view);
 }
 
 }

@@ -2,13 +2,8 @@
 #ifndef freespace_Picture_h
 #define freespace_Picture_h
 
-#include "Camera.h"
-
-#include <vtkSmartPointer.h>
-
 #include <array>
 #include <string>
-#include <vector>
 
 class vtkPolyData;
 
@@ -24,6 +19,7 @@ void CheckPictureName(const std::string& fileName);
 struct PictureLook
 {
   std::array<int, 2> size = { 1280, 960 }; ///< pixels
+  bool useViewpoint = true;                ///< of the surface, where it has one
   double azimuth = -123;                   ///< degrees
   double elevation = 33;
 };
@@ -32,12 +28,6 @@ struct PictureLook
 /// `look` tells. Throws Error when that fails.
 void WritePicture(Session& session, vtkPolyData* surface, vtkPolyData* view,
   const PictureLook& look, const std::string& fileName);
-
-/// The block of a viewpoint between cameras (NovelCameras.h), from which a scene shows itself well whatever
-/// way its axes go: much of it was seen from there, and what no camera saw lies at the borders or
-/// behind. nullptr without cameras.
-vtkSmartPointer<vtkPolyData> ViewBetween(
-  const std::vector<Camera>& cameras, const std::vector<Eigen::Vector3d>& points);
 
 }
 

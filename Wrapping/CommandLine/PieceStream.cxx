@@ -100,14 +100,14 @@ void PieceStream::FindShared()
   }
 }
 
-void PieceStream::Finish()
+void PieceStream::Finish(const std::string& comment)
 {
   if (this->Triangles == 0)
   {
     throw Error("Cannot write " + this->Name + ": the surface is empty.");
   }
   this->FindShared();
-  this->WriteWhole(this->Target.Path());
+  this->WriteWhole(this->Target.Path(), comment);
   this->PointFile.close();
   this->TriangleFile.close();
   std::filesystem::remove(this->Target.Path() + ".points");
@@ -116,13 +116,14 @@ void PieceStream::Finish()
 }
 
 /// Like vtkPLYWriter.
-void PieceStream::WriteWhole(const std::string& fileName)
+void PieceStream::WriteWhole(const std::string& fileName, const std::string& comment)
 {
   std::ofstream file(fileName, std::ios::binary);
   file << "ply\nformat binary_little_endian 1.0\ncomment VTK generated PLY File\n"
-          "obj_info vtkPolyData points and polygons: vtk4.0\nelement vertex "
-       << this->Points << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-       << this->Triangles << "\nproperty list uchar int vertex_indices\nend_header\n";
+       << (comment.empty() ? "" : "comment " + comment + "\n")
+       << "obj_info vtkPolyData points and polygons: vtk4.0\nelement vertex " << this->Points
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << this->Triangles
+       << "\nproperty list uchar int vertex_indices\nend_header\n";
   this->PointFile.seekg(0);
   for (std::int64_t i = 0; i < this->Points && file; ++i)
   {

@@ -29,8 +29,8 @@ public:
   /// .ply can count.
   void Add(vtkPolyData* piece);
 
-  /// Puts the file together. Throws Error when the disk is full.
-  void Finish();
+  /// Puts the file together, with a comment unless that is empty. Throws Error when the disk is full.
+  void Finish(const std::string& comment = "");
 
   std::int64_t NumberOfPoints() const { return this->Points; }
   std::int64_t NumberOfTriangles() const { return this->Triangles; }
@@ -39,7 +39,7 @@ private:
   using Position = std::array<double, 3>;
 
   void FindShared();
-  void WriteWhole(const std::string& fileName);
+  void WriteWhole(const std::string& fileName, const std::string& comment);
   void Check(bool isGood) const;
 
   std::string Name;

@@ -7,12 +7,13 @@
 #include "Session.h"
 #include "SparseStage.h"
 #include "Stages.h"
-#include "ViewBlocks.h"
+#include "SurfaceViewpoint.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 #include <vtkSparseModelReader.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace freespace
@@ -72,17 +73,13 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
   return settings.stereo.Run(session, settings.scene);
 }
 
-// From between the views, looking at the middle of the features.
-vtkSmartPointer<vtkPolyData> Viewpoint(vtkMultiBlockDataSet* features)
+// That of the photographs, unless it is very large.
+std::array<int, 2> SizeLike(const Camera& camera)
 {
-  std::vector<Camera> cameras;
-  std::vector<Eigen::Vector3d> points;
-  for (const View& view : ViewsFromBlocks(features))
-  {
-    cameras.push_back(view.camera);
-    points.insert(points.end(), view.points.begin(), view.points.end());
-  }
-  return ViewBetween(cameras, points);
+  constexpr double most = 2000;
+  const double scale = std::min(1.0, most / std::max(camera.width, camera.height));
+  return { std::max(1, static_cast<int>(scale * camera.width)),
+    std::max(1, static_cast<int>(scale * camera.height)) };
 }
 
 void Reconstruct(Session& session, const Settings& settings)
@@ -98,7 +95,12 @@ void Reconstruct(Session& session, const Settings& settings)
   WriteSurface(session, surface, settings.output);
   if (!settings.picture.empty())
   {
-    WritePicture(session, surface, Viewpoint(features), PictureLook(), settings.picture);
+    PictureLook look;
+    if (const auto viewpoint = ViewpointOf(surface))
+    {
+      look.size = SizeLike(*viewpoint);
+    }
+    WritePicture(session, surface, nullptr, look, settings.picture);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "Session.h"
 #include "Stages.h"
 #include "ViewBlocks.h"
+#include "Viewpoint.h"
 
 #include <vtkCameraReader.h>
 #include <vtkCellData.h>
@@ -33,6 +34,8 @@ struct Settings
   std::string view;
   std::string size;
   PictureLook look;
+  CLI::Option* azimuth = nullptr;
+  CLI::Option* elevation = nullptr;
   bool observed = false;
 };
 
@@ -86,35 +89,25 @@ void AddOptions(CLI::App& command, Settings& settings)
   addWithoutCamera(command.add_option("--size", settings.size, "Size of the picture, pixels")
                      ->check(CLI::Validator(SizeFault, ""))
                      ->type_name("WIDTHxHEIGHT [1280x960]"));
-  addWithoutCamera(command
-                     .add_option("--azimuth", settings.look.azimuth,
-                       "Where to look from, degrees around z, from x towards y")
-                     ->check(CLI::Range(-360.0, 360.0))
-                     ->capture_default_str());
-  addWithoutCamera(
+  settings.azimuth =
     command
-      .add_option("--elevation", settings.look.elevation, "Degrees above the plane of x and y")
-      ->check(CLI::Range(-90.0, 90.0))
-      ->capture_default_str());
+      .add_option("--azimuth", settings.look.azimuth,
+        "Look at the whole from here, degrees around z, from x towards y; so it is "
+        "done anyway where the surface knows no viewpoint, as a .ply or .vtp does "
+        "that this program wrote")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  settings.elevation = command
+                         .add_option("--elevation", settings.look.elevation,
+                           "The same, degrees above the plane of x and y")
+                         ->check(CLI::Range(-90.0, 90.0))
+                         ->capture_default_str();
+  addWithoutCamera(settings.azimuth);
+  addWithoutCamera(settings.elevation);
   command.add_flag("--observed", settings.observed,
     "Leave out what no camera saw, the hull and silhouette walls; the surface must be a .vtp, "
     "which "
     "alone tells what its triangles are");
-}
-
-vtkSmartPointer<vtkPolyData> BetweenCameras(vtkMultiBlockDataSet* blocks, vtkPolyData* surface)
-{
-  std::vector<Camera> cameras;
-  for (const View& view : ViewsFromBlocks(blocks))
-  {
-    cameras.push_back(view.camera);
-  }
-  std::vector<Eigen::Vector3d> points;
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    points.emplace_back(surface->GetPoint(i));
-  }
-  return ViewBetween(cameras, points);
 }
 
 vtkSmartPointer<vtkPolyData> FindView(
@@ -134,7 +127,9 @@ vtkSmartPointer<vtkPolyData> FindView(
   session.Run(cameras, "cameras");
   if (settings.view.empty())
   {
-    return BetweenCameras(cameras->GetOutput(), surface);
+    View between;
+    between.camera = ViewpointOfCameras(cameras->GetOutput(), surface, source);
+    return BlockFromView(between);
   }
   vtkSmartPointer<vtkPolyData> view = cameras->GetView(settings.view);
   if (!view)
@@ -163,6 +158,7 @@ void Render(Session& session, const Settings& settings)
     LeaveOutUnseen(surface, settings.mesh);
   }
   PictureLook look = settings.look;
+  look.useViewpoint = settings.azimuth->count() == 0 && settings.elevation->count() == 0;
   if (!settings.size.empty())
   {
     look.size = SizeFrom(settings.size);

@@ -159,7 +159,7 @@ Surroundings LookAround(Session& session, const Scene& scene, vtkMultiBlockDataS
   }
   around.groups = CameraGroups(scene);
   around.middle = MedianPoint(around.features);
-  around.novel = NovelCameras(around.References(), around.middle, 2);
+  around.novel = NovelCameras(around.views, 2);
   if (around.novel.empty())
   {
     throw Error(scene.file + " has no view from which features were found.");

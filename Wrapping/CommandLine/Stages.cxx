@@ -6,6 +6,8 @@
 #include "PieceStream.h"
 #include "NotNegative.h"
 #include "Session.h"
+#include "SurfaceViewpoint.h"
+#include "Viewpoint.h"
 
 #include <vtkAppendPiecesFilter.h>
 #include <vtkBisectionContourFilter.h>
@@ -232,7 +234,10 @@ void ContourStage::AddOptions(CLI::App& command)
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
 {
-  return this->Join(session, { this->RunPiece(session, this->MakeFilter(maps), 0, 1) });
+  const auto surface =
+    this->Join(session, { this->RunPiece(session, this->MakeFilter(maps), 0, 1) });
+  AddViewpoint(maps, surface);
+  return surface;
 }
 
 vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
@@ -260,8 +265,8 @@ vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
   return contour->GetOutput();
 }
 
-bool ContourStage::Stream(
-  Session& session, vtkBisectionContourFilter* contour, const std::string& fileName) const
+bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
+  vtkMultiBlockDataSet* maps, const std::string& fileName) const
 {
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
@@ -287,7 +292,9 @@ bool ContourStage::Stream(
       pieces);
     stream.Add(contour->GetOutput());
   }
-  stream.Finish();
+  vtkNew<vtkPolyData> nothingButViewpoint;
+  AddViewpoint(maps, nothingButViewpoint);
+  stream.Finish(ViewpointComment(nothingButViewpoint));
   session.Tell("contour: " + std::to_string(stream.NumberOfPoints()) + " vertices, " +
     std::to_string(stream.NumberOfTriangles()) + " triangles");
   session.Tell("wrote " + fileName);

@@ -67,8 +67,8 @@ public:
   /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
   /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
   /// RunPiece tells why.
-  bool Stream(
-    Session& session, vtkBisectionContourFilter* contour, const std::string& fileName) const;
+  bool Stream(Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps,
+    const std::string& fileName) const;
 
   /// One of the pieces that Join makes the same surface of.
   vtkSmartPointer<vtkPolyData> RunPiece(
@@ -79,7 +79,7 @@ public:
 private:
   int Cells = 256;
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
-  double HullMargin = -1; // below 0: somewhat more than a cell
+  double HullMargin = -1;  // below 0: somewhat more than a cell
   int MinimumViews = 1;
   bool NotSharp = false;
   double Simplify = 0.0;

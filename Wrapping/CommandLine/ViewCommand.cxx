@@ -4,12 +4,14 @@
 #include "NotNegative.h"
 #include "Animation.h"
 #include "Error.h"
+#include "FileEnding.h"
 #include "NewFolder.h"
 #include "Picture.h"
 #include "Session.h"
 #include "Stages.h"
 #include "Turntable.h"
 #include "ViewBlocks.h"
+#include "Viewpoint.h"
 
 #include <vtkCameraReader.h>
 #include <vtkImageData.h>
@@ -22,6 +24,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 namespace freespace
 {
@@ -42,7 +45,7 @@ struct Settings
   int rate = 12;
 
   bool IsFilm() const { return this->turntable > 0 && Animation::CanWriteFile(this->output); }
-  bool IsFolder() const { return this->view.empty() && !this->IsFilm(); }
+  bool IsFolder() const { return !this->model.empty() || (this->turntable > 0 && !this->IsFilm()); }
 };
 
 void AddOptions(CLI::App& command, Settings& settings)
@@ -55,11 +58,12 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("MESH.ply");
   command
     .add_option("-o,--output", settings.output,
-      "The picture to write for --view, the folder of pictures for --model and --turntable, or for "
+      "The picture to write, or the folder of pictures for --model and --turntable, or for "
       "--turntable a film, .ogv")
     ->required()
     ->type_name("OUT");
-  auto* from = command.add_option_group("viewpoint", "Where to look from");
+  auto* from = command.add_option_group(
+    "viewpoint", "Where to look from; otherwise from near the cameras at the whole");
   from->add_option("--view", settings.view, "The camera of this image of the scene")
     ->type_name("NAME");
   from->add_option("--model", settings.model, "Each camera of this COLMAP model")
@@ -67,7 +71,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   from->add_option("--turntable", settings.turntable, "So many cameras around the scene")
     ->check(Positive())
     ->type_name("N");
-  from->require_option(1);
+  from->require_option(0, 1);
   command.add_option("--rate", settings.rate, "Pictures a second of a film")
     ->check(CLI::Range(1, 240))
     ->capture_default_str();
@@ -91,15 +95,20 @@ std::vector<Shot> ShotsOfModel(vtkMultiBlockDataSet* cameras, const fs::path& fo
   return shots;
 }
 
-std::vector<Shot> ShotsOfTurntable(vtkMultiBlockDataSet* cameras, int count, const fs::path& folder)
+std::vector<Shot> ShotsOfTurntable(
+  vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const Settings& settings)
 {
   std::vector<Camera> known;
-  for (unsigned int i = 0; i < cameras->GetNumberOfBlocks(); ++i)
+  std::vector<Eigen::Vector3d> points;
+  for (const View& view : ViewsOfSurface(cameras, surface, settings.scene))
   {
-    known.push_back(CameraFromBlock(cameras->GetBlock(i), BlockName(cameras, i)));
+    known.push_back(view.camera);
+    points.insert(points.end(), view.points.begin(), view.points.end());
   }
+  const int count = settings.turntable;
+  const fs::path folder = settings.output;
   std::vector<Shot> shots;
-  for (const Camera& camera : TurntableCameras(known, count))
+  for (const Camera& camera : TurntableCameras(known, count, points))
   {
     View view;
     view.camera = camera;
@@ -110,7 +119,14 @@ std::vector<Shot> ShotsOfTurntable(vtkMultiBlockDataSet* cameras, int count, con
   return shots;
 }
 
-std::vector<Shot> FindShots(Session& session, const Settings& settings)
+Shot ShotOfDefault(vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const Settings& settings)
+{
+  View view;
+  view.camera = ViewpointOfCameras(cameras, surface, settings.scene);
+  return { BlockFromView(view), settings.output };
+}
+
+std::vector<Shot> FindShots(Session& session, vtkPolyData* surface, const Settings& settings)
 {
   vtkNew<vtkCameraReader> cameras;
   cameras->SetFileName(settings.model.empty() ? settings.scene : settings.model);
@@ -124,8 +140,12 @@ std::vector<Shot> FindShots(Session& session, const Settings& settings)
     }
     return { { view, settings.output } };
   }
-  return settings.turntable > 0
-    ? ShotsOfTurntable(cameras->GetOutput(), settings.turntable, settings.output)
+  if (settings.turntable > 0)
+  {
+    return ShotsOfTurntable(cameras->GetOutput(), surface, settings);
+  }
+  return settings.model.empty()
+    ? std::vector<Shot>{ ShotOfDefault(cameras->GetOutput(), surface, settings) }
     : ShotsOfModel(cameras->GetOutput(), settings.output);
 }
 
@@ -136,23 +156,38 @@ void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned
     " photographs" + (inUse < int(photographs) ? ", the best for this camera" : ""));
 }
 
+// Whether a folder's name is that of a film or a picture, which must be meant.
+bool LooksLikeAFile(const std::string& folder)
+{
+  const std::set<std::string> endings = { ".avi", ".flv", ".gif", ".jpeg", ".jpg", ".m4v", ".mkv",
+    ".mov", ".mp4", ".mpeg", ".mpg", ".ogg", ".ogv", ".png", ".webm", ".webp", ".wmv" };
+  return !fs::is_directory(folder) && endings.count(LowerCaseEnding(folder)) > 0;
+}
+
 void CheckOutput(const Settings& settings)
 {
-  if (!settings.view.empty())
+  if (settings.IsFilm())
+  {
+    CheckOutputFolder(settings.output);
+  }
+  else if (!settings.IsFolder())
   {
     CheckPictureName(settings.output);
   }
-  else if (settings.IsFilm())
+  else if (LooksLikeAFile(settings.output))
   {
-    CheckOutputFolder(settings.output);
+    throw Error("Cannot write '" + settings.output + "': " +
+      (settings.turntable > 0 ? "a turntable makes a film, whose name ends in .ogv, or a folder of "
+                                "pictures."
+                              : "--model makes a folder of pictures."));
   }
 }
 
 void ViewScene(Session& session, const Settings& settings)
 {
-  const std::vector<Shot> shots = FindShots(session, settings);
   CheckOutput(settings);
   const auto surface = ReadSurface(session, settings.mesh);
+  const std::vector<Shot> shots = FindShots(session, surface, settings);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
   session.Run(photographs, "photographs");
@@ -196,6 +231,7 @@ void AddViewCommand(CLI::App& program, Session& session)
     program.add_subcommand("view", "Make pictures of a surface in the colours of the photographs");
   AddOptions(*command, *settings);
   command->footer("Examples:\n"
+                  "  freespace view scene.json --mesh mesh.ply -o view.png\n"
                   "  freespace view scene.json --mesh mesh.ply --view c.jpg -o c.png\n"
                   "  freespace view scene.json --mesh mesh.ply --model novel -o pictures\n"
                   "  freespace view scene.json --mesh mesh.ply --turntable 36 -o pictures\n"

@@ -210,7 +210,7 @@ ViewerModel MakeViewerModel(Session& session, vtkPolyData* surface,
   model["radius"] = box.size.norm() / 2;
   model["position"] = Numbers(first.Center());
   model["target"] = Numbers(middle);
-  model["up"] = Numbers(MeanUp({ first }));
+  model["up"] = Numbers(-first.R.row(1));
   model["tangent"] = 0.5 * first.height / first.K(1, 1);
   return { model.dump(), static_cast<long long>(textured->GetNumberOfPolys()) };
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraDrawing.h"
 
+#include "CommonUp.h"
 #include "Html.h"
-#include "LookAt.h"
 #include "NovelCameras.h"
 
 #include <algorithm>
@@ -27,11 +27,7 @@ class Projection
 public:
   explicit Projection(const std::vector<Camera>& cameras)
   {
-    Eigen::Vector3d up = MeanUp(cameras);
-    if (up.isZero())
-    {
-      up = Eigen::Vector3d::UnitZ();
-    }
+    const Eigen::Vector3d up = CommonUp(cameras);
     // From behind the first camera, turned aside so that a ring of cameras opens, and from above.
     Eigen::Vector3d front = cameras[0].R.row(2).transpose();
     front -= front.dot(up) * up;
