@@ -653,21 +653,25 @@ private:
     // What the cell's own planes show it has, if need be at the nearest place in it.
     SharpFeature last = features.back();
     const bool isNear = last.SlideInto(inner) || mayTrust;
-    const Vector3d middle = Clamp(isNear ? last.position : MiddleOf(planes), inner);
+    Vector3d middle = Clamp(isNear ? last.position : MiddleOf(planes), inner);
+    const bool mayGuess = mayTrust && this->PutOnSurface(middle, last.Up(), inner, isFree);
     SharpVertex vertex = { c, middle, middle, middle, Reach::Own, false, false, Reach::Own };
     bool isFound = false;
     for (SharpFeature& feature : features)
     {
       Reach reach;
-      const bool isSettled = this->Settle(cell, feature, reach);
-      const bool isTrusted = mayTrust && !feature.isBorrowed && reach == Reach::Own;
-      if (!isSettled ||
-        !(isTrusted || feature.IsConfirmed(FeatureReach * this->Lattice.spacing, isFree)))
+      if (!this->Settle(cell, feature, reach))
       {
         continue;
       }
       const bool isOwn = reach == Reach::Own;
-      const Vector3d position = isOwn ? Clamp(feature.position, inner) : feature.position;
+      Vector3d position = isOwn ? Clamp(feature.position, inner) : feature.position;
+      const bool isTrusted = mayTrust && !feature.isBorrowed && isOwn &&
+        this->PutOnSurface(position, feature.Up(), inner, isFree);
+      if (!isTrusted && !feature.IsConfirmed(FeatureReach * this->Lattice.spacing, isFree))
+      {
+        continue;
+      }
       if (!isFound)
       {
         vertex.position = position;
@@ -684,10 +688,20 @@ private:
         break;
       }
     }
-    if (isFound || mayTrust)
+    if (isFound || mayGuess)
     {
       place.sharp.push_back(vertex);
     }
+  }
+
+  /// The planes are a guess where the surface is rough: a place that the field contradicts is moved to
+  /// where the surface is, within the cell. False where it is not found: the cell does better without.
+  bool PutOnSurface(Vector3d& position, const Vector3d& up, const AlignedBox3d& inner,
+    const std::function<bool(const Vector3d&)>& isFree) const
+  {
+    const Vector3d slack = VertexSlack * this->Lattice.spacing * up;
+    return (isFree(position + slack) && !isFree(position - slack)) ||
+      MoveToBoundary(position, up, inner, isFree);
   }
 
   /// Offers a feature to the cells around that it passes: their own crossings may not show it.
@@ -1702,6 +1716,10 @@ private:
 
   /// The field must show an edge or corner so close to where the planes say that it is, in cells.
   static constexpr double FeatureReach = 0.05;
+
+  /// A sharp vertex may be so far off the surface, in cells: roughness that the smoothed normals leave
+  /// out, but no other surface.
+  static constexpr double VertexSlack = 0.5;
 
   const BoundedField Field;
   const ContourLattice Lattice;

@@ -71,6 +71,8 @@ using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 ///   together across the diagonal of a face whose middle is matter.
 /// - A wedge may dip into cells without holding any of their lattice points; the vertex of the cell
 ///   next to it is put there.
+/// - A vertex that the field puts half a cell or more off the surface is moved onto it within its cell,
+///   or left out where the cell does not have it.
 /// - What reaches out of its cells, or is not shown by the cell's own planes, the field must confirm;
 ///   and it gives way where its triangles would meet others, by a rule that looks at the surroundings
 ///   alone. So the surface never meets itself.

@@ -35,6 +35,12 @@ Eigen::Matrix3Xd DualBasis(const std::vector<Vector3d>& normals)
 
 }
 
+Vector3d SharpFeature::Up() const
+{
+  const Vector3d sum = DualBasis(this->normals).rowwise().sum();
+  return sum.allFinite() ? Vector3d(sum.normalized()) : Vector3d(Vector3d::Zero());
+}
+
 bool SharpFeature::SlideInto(const Eigen::AlignedBox3d& box)
 {
   double low = this->IsCorner() ? 0.0 : -HUGE_VAL, high = -low;
@@ -182,6 +188,32 @@ bool FindCornerOnEdge(
   corner.direction = Vector3d::Zero();
   corner.normals.push_back(plane.normal);
   corner.isBorrowed = true;
+  return true;
+}
+
+bool MoveToBoundary(Vector3d& point, const Vector3d& up, const Eigen::AlignedBox3d& box,
+  const std::function<bool(const Vector3d& point)>& isFree)
+{
+  constexpr int steps = 16, halvings = 8;
+  const bool wasFree = isFree(point);
+  const Vector3d step = (wasFree ? -1.0 : 1.0) / steps * box.sizes().minCoeff() * up;
+  const auto at = [&](double s) { return Vector3d(point + s * step); };
+  double near = 0.0, far = 1.0;
+  while (step.squaredNorm() > 0 && box.contains(at(far)) && isFree(at(far)) == wasFree)
+  {
+    near = far;
+    far += 1.0;
+  }
+  if (!(step.squaredNorm() > 0) || !box.contains(at(far)))
+  {
+    return false;
+  }
+  for (int i = 0; i < halvings; ++i)
+  {
+    const double middle = 0.5 * (near + far);
+    (isFree(at(middle)) == wasFree ? near : far) = middle;
+  }
+  point = at(near);
   return true;
 }
 

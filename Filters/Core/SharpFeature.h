@@ -27,6 +27,10 @@ struct SharpFeature
 
   bool IsCorner() const { return this->normals.size() == 3; }
 
+  /// A direction from the position that is above all planes by as much, unit length; zero where there is
+  /// none.
+  Eigen::Vector3d Up() const;
+
   /// Moves the position along the edge to the nearest place in a box. False: there is none, and the
   /// position is as it was.
   bool SlideInto(const Eigen::AlignedBox3d& box);
@@ -52,6 +56,12 @@ bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosin
 /// The corner where a plane cuts an edge. False when it is not far enough from parallel to it.
 bool FindCornerOnEdge(
   const SharpFeature& edge, const SurfacePlane& plane, double sharpCosine, SharpFeature& corner);
+
+/// Moves a point along a direction out of the matter to the surface: up when it is in matter, otherwise
+/// down. Looks in steps of a sixteenth of the box. False: the surface is not met within the box, and the
+/// point is where it was.
+bool MoveToBoundary(Eigen::Vector3d& point, const Eigen::Vector3d& up,
+  const Eigen::AlignedBox3d& box, const std::function<bool(const Eigen::Vector3d& point)>& isFree);
 
 /// Whether some two normals differ by more than the angle.
 bool NormalsDiffer(const std::vector<SurfacePlane>& planes, double cosine);

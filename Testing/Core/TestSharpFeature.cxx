@@ -133,3 +133,29 @@ TEST(SharpFeature, TellsWhetherNormalsDiffer)
   EXPECT_FALSE(NormalsDiffer({ x, x }, 0.5));
   EXPECT_TRUE(NormalsDiffer({ x, x, y }, 0.5));
 }
+
+TEST(SharpFeature, MovesToTheBoundaryFromEitherSide)
+{
+  const auto isFree = [](const Vector3d& point) { return point.z() > 0.4; };
+  const Vector3d up = Vector3d(0.3, 0.0, 1.0).normalized();
+  for (double height : { 0.1, 0.35, 0.45, 0.8 })
+  {
+    const Vector3d start(0.5, 0.5, height);
+    Vector3d point = start;
+    ASSERT_TRUE(MoveToBoundary(point, up, UnitBox(), isFree));
+    EXPECT_NEAR(point.z(), 0.4, 1.0 / 16 / 128);
+    EXPECT_LT((point - start).cross(up).norm(), 1e-12);
+  }
+}
+
+TEST(SharpFeature, StaysWhereTheBoxHoldsNoBoundaryOnTheWay)
+{
+  const auto isFree = [](const Vector3d& point) { return point.z() > 1.2; };
+  const Vector3d start(0.5, 0.5, 0.7);
+  Vector3d point = start;
+  EXPECT_FALSE(MoveToBoundary(point, Vector3d::UnitZ(), UnitBox(), isFree));
+  EXPECT_FALSE(MoveToBoundary(point, -Vector3d::UnitZ(), UnitBox(), isFree));
+  EXPECT_FALSE(MoveToBoundary(point, Vector3d::Zero(), UnitBox(), isFree));
+  EXPECT_FALSE(MoveToBoundary(point, Vector3d::Constant(NAN), UnitBox(), isFree));
+  EXPECT_EQ(point, start);
+}
