@@ -268,39 +268,39 @@ Neighbors FindNeighbors(
   return best;
 }
 
-void Link(std::vector<EdgePoint>& points, int from, int to)
+void Link(LinkedPoints& edges, int from, int to)
 {
-  EdgePoint& a = points[from];
-  EdgePoint& b = points[to];
-  if (a.next >= 0)
+  int &next = edges.next[from], &previous = edges.previous[to];
+  if (next >= 0)
   {
-    points[a.next].previous = -1;
+    edges.previous[next] = -1;
   }
-  if (b.previous >= 0)
+  if (previous >= 0)
   {
-    points[b.previous].next = -1;
+    edges.next[previous] = -1;
   }
-  a.next = to;
-  b.previous = from;
+  next = to;
+  previous = from;
 }
 
 // Links a point to the best one ahead and behind; a point that two want goes to the nearer.
-void LinkToNeighbors(std::vector<EdgePoint>& points, const Neighbors& best, int i)
+void LinkToNeighbors(LinkedPoints& edges, const Neighbors& best, int i)
 {
-  if (best.ahead >= 0 && points[i].next != best.ahead)
+  const std::vector<EdgePoint>& points = edges.points;
+  if (best.ahead >= 0 && edges.next[i] != best.ahead)
   {
-    const int rival = points[best.ahead].previous;
+    const int rival = edges.previous[best.ahead];
     if (rival < 0 || LinkDistance(points[rival], points[best.ahead]) > best.aheadDistance)
     {
-      Link(points, i, best.ahead);
+      Link(edges, i, best.ahead);
     }
   }
-  if (best.behind >= 0 && points[i].previous != best.behind)
+  if (best.behind >= 0 && edges.previous[i] != best.behind)
   {
-    const int rival = points[best.behind].next;
+    const int rival = edges.next[best.behind];
     if (rival < 0 || LinkDistance(points[rival], points[best.behind]) < best.behindDistance)
     {
-      Link(points, best.behind, i);
+      Link(edges, best.behind, i);
     }
   }
 }
@@ -318,10 +318,13 @@ public:
       GradientRow(image.cols) }
     , Index(image.cols)
   {
-    this->Points.reserve(image.total() / 20);
+    const std::size_t many = image.total() / 8; // what is not needed is not touched
+    this->Edges.points.reserve(many);
+    this->Edges.next.reserve(many);
+    this->Edges.previous.reserve(many);
   }
 
-  std::vector<EdgePoint> Find()
+  LinkedPoints Find()
   {
     for (int y = 0; y < 3; ++y)
     {
@@ -340,7 +343,7 @@ public:
         this->LinkPoints(y - LinkRadius);
       }
     }
-    return std::move(this->Points);
+    return std::move(this->Edges);
   }
 
 private:
@@ -366,8 +369,10 @@ private:
     this->Index.Number(y,
       [&](int x)
       {
-        this->Points.push_back(peaks.PointAt(x, y));
-        return static_cast<int>(this->Points.size()) - 1;
+        this->Edges.points.push_back(peaks.PointAt(x, y));
+        this->Edges.next.push_back(-1);
+        this->Edges.previous.push_back(-1);
+        return static_cast<int>(this->Edges.points.size()) - 1;
       });
   }
 
@@ -375,8 +380,8 @@ private:
   {
     for (const int x : this->Index.Columns(y))
     {
-      const Neighbors best = FindNeighbors(this->Points, this->Index, x, y, this->Linked);
-      LinkToNeighbors(this->Points, best, this->Linked);
+      const Neighbors best = FindNeighbors(this->Edges.points, this->Index, x, y, this->Linked);
+      LinkToNeighbors(this->Edges, best, this->Linked);
       ++this->Linked;
     }
   }
@@ -386,13 +391,13 @@ private:
   SmoothRows Smooth;
   std::array<GradientRow, 4> Rows;
   PointIndex Index;
-  std::vector<EdgePoint> Points;
+  LinkedPoints Edges;
   int Linked = 0; // points
 };
 
 }
 
-std::vector<EdgePoint> FindEdgePoints(const cv::Mat& image, double smoothing, double lowContrast)
+LinkedPoints FindEdgePoints(const cv::Mat& image, double smoothing, double lowContrast)
 {
   if (image.rows < 3 || image.cols < 3)
   {

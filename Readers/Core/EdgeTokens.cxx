@@ -48,8 +48,9 @@ std::vector<double> ParabolaWeights(int radius)
 class TokenMaker
 {
 public:
-  TokenMaker(const cv::Mat& colors, int fitRadius)
-    : Colors(colors)
+  TokenMaker(const std::vector<EdgePoint>& points, const cv::Mat& colors, int fitRadius)
+    : Points(points)
+    , Colors(colors)
   {
     for (int radius = 0; radius <= fitRadius; ++radius)
     {
@@ -62,7 +63,7 @@ public:
   }
 
   // Appends the tokens of a chain; a closed one has no ends.
-  void Make(const std::vector<EdgePoint>& chain, bool closed, std::vector<EdgeToken>& tokens)
+  void Make(const std::vector<int>& chain, bool closed, std::vector<EdgeToken>& tokens)
   {
     this->GoTo(chain, closed);
     this->Fit();
@@ -81,14 +82,14 @@ public:
       EdgeToken& token = tokens.back();
       token.position = { this->X[k], this->Y[k] };
       token.tangent = { this->TangentX[k], this->TangentY[k] };
-      token.contrast = chain[k].contrast;
+      token.contrast = this->Points[chain[k]].contrast;
       this->AddColors(k, token);
     }
   }
 
 private:
   // The points of a chain; a closed one goes on beyond its ends.
-  void GoTo(const std::vector<EdgePoint>& chain, bool closed)
+  void GoTo(const std::vector<int>& chain, bool closed)
   {
     const int size = this->Size = static_cast<int>(chain.size());
     const int greatest = static_cast<int>(this->Weights.size()) - 1;
@@ -97,7 +98,7 @@ private:
     this->PointY.resize(size + 2 * this->Beyond);
     for (int k = -this->Beyond; k < size + this->Beyond; ++k)
     {
-      const EdgePoint& point = chain[k < 0 ? k + size : k < size ? k : k - size];
+      const EdgePoint& point = this->Points[chain[k < 0 ? k + size : k < size ? k : k - size]];
       this->PointX[k + this->Beyond] = point.x;
       this->PointY[k + this->Beyond] = point.y;
     }
@@ -105,8 +106,8 @@ private:
     this->GradientY.resize(size);
     for (int k = 0; k < size; ++k)
     {
-      this->GradientX[k] = chain[k].gx;
-      this->GradientY[k] = chain[k].gy;
+      this->GradientX[k] = this->Points[chain[k]].gx;
+      this->GradientY[k] = this->Points[chain[k]].gy;
     }
     for (std::vector<double>* values : { &this->X, &this->Y, &this->AlongX, &this->AlongY })
     {
@@ -194,6 +195,7 @@ private:
     std::vector<double> value, slope;
   };
 
+  const std::vector<EdgePoint>& Points;
   const cv::Mat& Colors;
   std::vector<FitWeights> Weights; // by radius
 
@@ -235,23 +237,24 @@ cv::Mat BlurredColors(const cv::Mat& image)
 
 // Follows the links from each chain's first point, then around the closed chains.
 template <typename Visitor>
-void VisitChains(const std::vector<EdgePoint>& points, Visitor&& visit)
+void VisitChains(const LinkedPoints& edges, Visitor&& visit)
 {
-  std::vector<char> taken(points.size(), 0);
-  std::vector<EdgePoint> chain;
+  const int count = static_cast<int>(edges.points.size());
+  std::vector<char> taken(count, 0);
+  std::vector<int> chain;
   for (const bool closed : { false, true })
   {
-    for (int start = 0; start < static_cast<int>(points.size()); ++start)
+    for (int start = 0; start < count; ++start)
     {
-      if (taken[start] || (!closed && points[start].previous >= 0))
+      if (taken[start] || (!closed && edges.previous[start] >= 0))
       {
         continue;
       }
       chain.clear();
-      for (int i = start; i >= 0 && !taken[i]; i = points[i].next)
+      for (int i = start; i >= 0 && !taken[i]; i = edges.next[i])
       {
         taken[i] = 1;
-        chain.push_back(points[i]);
+        chain.push_back(i);
       }
       visit(chain, closed);
     }
@@ -282,16 +285,15 @@ EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options)
   {
     return edges;
   }
-  const std::vector<EdgePoint> points =
-    FindEdgePoints(image, options.smoothing, options.lowContrast);
+  const LinkedPoints points = FindEdgePoints(image, options.smoothing, options.lowContrast);
   const cv::Mat colors = BlurredColors(image);
-  TokenMaker maker(colors, options.fitRadius);
-  edges.tokens.reserve(points.size());
+  TokenMaker maker(points.points, colors, options.fitRadius);
+  edges.tokens.reserve(points.points.size());
   VisitChains(points,
-    [&](const std::vector<EdgePoint>& chain, bool closed)
+    [&](const std::vector<int>& chain, bool closed)
     {
       const bool strong = std::any_of(chain.begin(), chain.end(),
-        [&](const EdgePoint& point) { return point.contrast >= options.highContrast; });
+        [&](int i) { return points.points[i].contrast >= options.highContrast; });
       if (!strong || static_cast<int>(chain.size()) < options.minimumLength)
       {
         return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EpipolarIndex.h"
 
+#include "EpipolarRays.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -15,30 +17,26 @@ std::vector<EpipolarIndex::Piece> RectifiedPieces(
 {
   constexpr double leastScale = 0.34; // cosine of 70 degrees
   std::vector<EpipolarIndex::Piece> pieces(edges.tokens.size());
+  EpipolarRays rays;
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
   {
-    EpipolarPair::Ray next = pair.FromOther(edges.tokens[edges.begin[chain]].position);
-    for (int i = edges.begin[chain]; i + 1 < edges.begin[chain + 1]; ++i)
+    const int begin = edges.begin[chain], count = edges.begin[chain + 1] - begin;
+    rays.Compute(pair.OtherHomography(), &edges.tokens[begin], count);
+    for (int k = 0; k + 1 < count; ++k)
     {
-      const EpipolarPair::Ray ray = next;
-      next = pair.FromOther(edges.tokens[i + 1].position);
-      if (!(ray.scale > leastScale) || !(next.scale > leastScale) || ray.v == next.v)
+      const double rows = rays.v[k + 1] - rays.v[k];
+      if (rays.scale[k] > leastScale && rays.scale[k + 1] > leastScale && rows != 0 &&
+        std::abs(rays.tangentV[k]) >= minimumSine)
       {
-        continue;
-      }
-      const EdgeToken& token = edges.tokens[i];
-      const Eigen::Vector2d tangent = (pair.OtherJacobian(ray) * token.tangent).normalized();
-      if (std::abs(tangent.y()) >= minimumSine)
-      {
-        EpipolarIndex::Piece& piece = pieces[i];
-        piece.low = static_cast<float>(std::min(ray.v, next.v));
-        piece.high = static_cast<float>(std::max(ray.v, next.v));
-        piece.u = static_cast<float>(ray.u);
-        piece.v = static_cast<float>(ray.v);
-        piece.slope = static_cast<float>((next.u - ray.u) / (next.v - ray.v));
-        piece.tangentU = static_cast<float>(tangent.x());
-        piece.tangentV = static_cast<float>(tangent.y());
-        piece.uncertainty = static_cast<float>(token.Uncertainty());
+        EpipolarIndex::Piece& piece = pieces[begin + k];
+        piece.low = static_cast<float>(std::min(rays.v[k], rays.v[k + 1]));
+        piece.high = static_cast<float>(std::max(rays.v[k], rays.v[k + 1]));
+        piece.u = static_cast<float>(rays.u[k]);
+        piece.v = static_cast<float>(rays.v[k]);
+        piece.slope = static_cast<float>((rays.u[k + 1] - rays.u[k]) / rows);
+        piece.tangentU = static_cast<float>(rays.tangentU[k]);
+        piece.tangentV = static_cast<float>(rays.tangentV[k]);
+        piece.uncertainty = static_cast<float>(edges.tokens[begin + k].Uncertainty());
       }
     }
   }
@@ -47,7 +45,7 @@ std::vector<EpipolarIndex::Piece> RectifiedPieces(
 
 }
 
-// Calls visit(cell, piece) for each row that a piece touches.
+// Calls visit(row, column, piece) for each row that a piece touches.
 template <typename Visitor>
 void EpipolarIndex::VisitCells(Visitor&& visit) const
 {
@@ -55,12 +53,11 @@ void EpipolarIndex::VisitCells(Visitor&& visit) const
   {
     if (!piece.Empty())
     {
-      const int first = static_cast<int>(std::floor(piece.low) - this->FirstRow);
-      const int last = static_cast<int>(std::floor(piece.high) - this->FirstRow);
+      const int first = this->RowOf(piece.low), last = this->RowOf(piece.high);
       const int column = this->ColumnOf(piece.u);
       for (int row = first; row <= last; ++row)
       {
-        visit((2 * row + (piece.tangentV > 0)) * this->Columns + column, piece);
+        visit(row, column, piece);
       }
     }
   }
@@ -74,9 +71,10 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   {
     return;
   }
-  const std::size_t cells = static_cast<std::size_t>(2) * this->Rows * this->Columns;
+  const std::size_t cells = static_cast<std::size_t>(this->Rows) * this->Columns;
   this->Begin.assign(cells + 1, 0);
-  this->VisitCells([this](int cell, const Piece&) { ++this->Begin[cell + 1]; });
+  this->VisitCells(
+    [this](int row, int column, const Piece&) { ++this->Begin[row * this->Columns + column + 1]; });
   for (std::size_t cell = 0; cell < cells; ++cell)
   {
     this->Begin[cell + 1] += this->Begin[cell];
@@ -84,17 +82,17 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   this->Blocks.resize((this->Begin.back() + 3) / 4);
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   this->VisitCells(
-    [&](int cell, const Piece& piece)
+    [&](int row, int column, const Piece& piece)
     {
-      const int i = next[cell]++ % 4;
-      PieceBlock& block = this->Blocks[(next[cell] - 1) / 4];
+      const int place = next[row * this->Columns + column]++, i = place % 4;
+      PieceBlock& block = this->Blocks[place / 4];
       block.low[i] = piece.low;
       block.high[i] = piece.high;
-      block.u[i] = piece.u;
-      block.v[i] = piece.v;
+      block.u[i] = piece.ColumnAt(this->FirstRow + static_cast<float>(row));
       block.slope[i] = piece.slope;
       block.tangentU[i] = piece.tangentU;
       block.tangentV[i] = piece.tangentV;
+      block.width[i] = piece.uncertainty / std::abs(piece.tangentV);
       block.token[i] = static_cast<int>(&piece - this->Pieces.data());
     });
 }
@@ -124,7 +122,7 @@ int EpipolarIndex::FindBounds()
     this->Rows = static_cast<int>(std::floor(high) - this->FirstRow) + 1;
     // At most a few cells for each piece, however the images are stretched.
     const float cells = 4.0f * static_cast<float>(count);
-    this->CellWidth = std::max(this->CellWidth, (right - left) * 2 * this->Rows / cells);
+    this->CellWidth = std::max(this->CellWidth, (right - left) * this->Rows / cells);
     this->Columns = static_cast<int>((right - left) / this->CellWidth) + 1;
   }
   return count;

@@ -63,21 +63,22 @@ public:
     float minimumCosine;      ///< of the angle to it
   };
 
-  /// Calls visit(token, u, cosine) for all pieces that cross row v as the search wants and go down
-  /// the rows (their tangent's v is positive) or up.
+  /// Calls visit(token, u, cosine, width) for all pieces that cross row v as the search wants; the
+  /// width is how far the crossing moves along the row when the edge moves one pixel across, in the
+  /// piece's uncertainty.
   template <typename Visitor>
-  void VisitRow(double v, bool down, const Search& search, Visitor&& visit) const
+  void VisitRow(double v, const Search& search, Visitor&& visit) const
   {
     if (!(v >= this->FirstRow && v < this->FirstRow + this->Rows))
     {
       return;
     }
-    const int truncated = static_cast<int>(v);
-    const int row = truncated - (truncated > v) - static_cast<int>(this->FirstRow);
-    const int line = (2 * row + down) * this->Columns;
-    const int begin = this->Begin[line + this->ColumnOf(search.near - this->Widest)];
-    const int end = this->Begin[line + this->ColumnOf(search.far + this->Widest) + 1];
+    const int row = this->RowOf(v);
+    const int begin = this->Begin[row * this->Columns + this->ColumnOf(search.near - this->Widest)];
+    const int end =
+      this->Begin[row * this->Columns + this->ColumnOf(search.far + this->Widest) + 1];
     const cv::v_float32x4 at = cv::v_setall_f32(static_cast<float>(v));
+    const cv::v_float32x4 down = cv::v_setall_f32(static_cast<float>(v - this->FirstRow - row));
     const cv::v_float32x4 near = cv::v_setall_f32(search.near), far = cv::v_setall_f32(search.far);
     const cv::v_float32x4 tangentU = cv::v_setall_f32(search.tangentU);
     const cv::v_float32x4 tangentV = cv::v_setall_f32(search.tangentV);
@@ -86,8 +87,7 @@ public:
     for (int first = begin & ~3; first < end; first += 4)
     {
       const PieceBlock& block = this->Blocks[first / 4];
-      const cv::v_float32x4 u =
-        cv::v_load(block.u) + (at - cv::v_load(block.v)) * cv::v_load(block.slope);
+      const cv::v_float32x4 u = cv::v_load(block.u) + down * cv::v_load(block.slope);
       const cv::v_float32x4 cosine =
         cv::v_abs(tangentU * cv::v_load(block.tangentU) + tangentV * cv::v_load(block.tangentV));
       int found = cv::v_signmask((cv::v_load(block.low) <= at) & (at < cv::v_load(block.high)) &
@@ -104,13 +104,19 @@ public:
       {
         if (found & 1)
         {
-          visit(block.token[k], columns[k], cosines[k]);
+          visit(block.token[k], columns[k], cosines[k], block.width[k]);
         }
       }
     }
   }
 
 private:
+  int RowOf(double v) const
+  {
+    const int truncated = static_cast<int>(v);
+    return truncated - (truncated > v) - static_cast<int>(this->FirstRow);
+  }
+
   int ColumnOf(float u) const
   {
     const float column = (u - this->FirstColumn) / CellWidth;
@@ -124,13 +130,15 @@ private:
   // Four pieces, so that processors compare them at once.
   struct PieceBlock
   {
-    float low[4], high[4], u[4], v[4], slope[4], tangentU[4], tangentV[4];
+    float low[4], high[4];
+    float u[4]; // where it crosses the upper border of the cell's row
+    float slope[4], tangentU[4], tangentV[4], width[4];
     int token[4];
   };
 
   std::vector<Piece> Pieces;      // per token
   std::vector<PieceBlock> Blocks; // by cell; in that of their start, in each row that they touch
-  std::vector<int> Begin; // of each cell and one past the last: rows twice (up and down) x columns
+  std::vector<int> Begin;         // of each cell and one past the last, rows x columns
   int Rows = 0;
   int Columns = 0;
   float FirstRow = 0;

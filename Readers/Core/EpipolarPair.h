@@ -28,6 +28,10 @@ public:
   Ray FromReference(const Eigen::Vector2d& pixel) const { return Apply(this->Reference, pixel); }
   Ray FromOther(const Eigen::Vector2d& pixel) const { return Apply(this->Other, pixel); }
 
+  /// From pixels to rectified rays.
+  const Eigen::Matrix3d& ReferenceHomography() const { return this->Reference; }
+  const Eigen::Matrix3d& OtherHomography() const { return this->Other; }
+
   /// How the rectified pixel moves with the pixel whose ray this is: d(u, v) / d(x, y).
   Eigen::Matrix2d ReferenceJacobian(const Ray& ray) const { return Jacobian(this->Reference, ray); }
   Eigen::Matrix2d OtherJacobian(const Ray& ray) const { return Jacobian(this->Other, ray); }

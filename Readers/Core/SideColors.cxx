@@ -10,12 +10,6 @@ namespace freespace
 namespace
 {
 
-struct Statistics
-{
-  double mean = 0;
-  double spread = 0;
-};
-
 std::array<double, 256> LogColors()
 {
   constexpr double dark = 16;
@@ -51,7 +45,7 @@ Histograms ColorHistograms(const EdgeChains& edges)
   return histograms;
 }
 
-Statistics ChannelStatistics(
+ColorStatistics::Channel ChannelStatistics(
   const std::array<int, 256>& histogram, const std::array<double, 256>& logColors)
 {
   double count = 0, sum = 0, squares = 0;
@@ -61,7 +55,7 @@ Statistics ChannelStatistics(
     sum += histogram[value] * logColors[value];
     squares += histogram[value] * logColors[value] * logColors[value];
   }
-  Statistics statistics;
+  ColorStatistics::Channel statistics;
   if (count > 0)
   {
     statistics.mean = sum / count;
@@ -72,16 +66,25 @@ Statistics ChannelStatistics(
 
 }
 
-SideColors::SideColors(const EdgeChains& image, const EdgeChains& reference)
+ColorStatistics::ColorStatistics(const EdgeChains& edges)
 {
   const std::array<double, 256> logColors = LogColors();
-  const Histograms from = ColorHistograms(image);
-  const Histograms to = &image == &reference ? from : ColorHistograms(reference);
+  const Histograms histograms = ColorHistograms(edges);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    this->Channels[channel] = ChannelStatistics(histograms[channel], logColors);
+  }
+}
+
+SideColors::SideColors(
+  const EdgeChains& image, const ColorStatistics& statistics, const ColorStatistics& reference)
+{
+  const std::array<double, 256> logColors = LogColors();
   std::uint32_t table[3][256]; // in its byte of a colour
   for (int channel = 0; channel < 3; ++channel)
   {
-    const Statistics own = ChannelStatistics(from[channel], logColors);
-    const Statistics wanted = ChannelStatistics(to[channel], logColors);
+    const ColorStatistics::Channel& own = statistics.Channels[channel];
+    const ColorStatistics::Channel& wanted = reference.Channels[channel];
     const double gain = std::clamp(wanted.spread / std::max(own.spread, 1.0), 0.25, 4.0);
     for (int value = 0; value < 256; ++value)
     {

@@ -9,6 +9,18 @@
 namespace freespace
 {
 
+/// How the colours beside the edges of an image are spread, in logarithms (see SideColors).
+struct ColorStatistics
+{
+  explicit ColorStatistics(const EdgeChains& edges);
+
+  struct Channel
+  {
+    double mean = 0, spread = 0;
+  };
+  std::array<Channel, 3> Channels;
+};
+
 /// What the edges of one image look like on both sides, ready to be compared with another's.
 ///
 /// Colours are compared in logarithms, 0 .. 255 brought to the same range, where another
@@ -18,8 +30,9 @@ namespace freespace
 class SideColors
 {
 public:
-  /// The colours of `image` as `reference` has them.
-  SideColors(const EdgeChains& image, const EdgeChains& reference);
+  /// The colours of an image with these statistics as the reference has them.
+  SideColors(
+    const EdgeChains& image, const ColorStatistics& statistics, const ColorStatistics& reference);
 
   /// Mean absolute differences, 0 .. 255, between the bright sides and between the dark ones;
   /// crossed: of the bright side to the other's dark one, and the other way round.

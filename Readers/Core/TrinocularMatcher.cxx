@@ -4,7 +4,9 @@
 #include "DisparityPrior.h"
 #include "EdgeRuns.h"
 #include "EpipolarIndex.h"
+#include "EpipolarRays.h"
 #include "Error.h"
+#include "MeetingBins.h"
 #include "RunSupport.h"
 #include "SideColors.h"
 
@@ -27,10 +29,11 @@ double Radians(double degrees)
 // Another image, ready to be searched.
 struct SearchImage
 {
-  SearchImage(const ImageEdges& reference, const ImageEdges& other, double minimumSine)
+  SearchImage(const ImageEdges& reference, const ColorStatistics& referenceColors,
+    const ImageEdges& other, double minimumSine)
     : pair(reference.camera, other.camera)
     , index(pair, other.edges, minimumSine)
-    , colors(other.edges, reference.edges)
+    , colors(other.edges, ColorStatistics(other.edges), referenceColors)
     , numberOfTokens(other.edges.tokens.size())
   {
   }
@@ -48,6 +51,17 @@ struct EpipolarLine
   Eigen::Vector2f tangent; // of the edge, rectified
   Eigen::Vector2d across;  // way of the rectified pixel when the token moves one pixel across
   bool usable;             // in front of the camera, the edge not too near to parallel
+};
+
+// Where an edge of another image crosses the epipolar line of a token.
+struct Crossing
+{
+  float place;  // its disparity, pixels of the longest baseline
+  float reach;  // to one that it can confirm, in the same pixels
+  float u;      // rectified column
+  float cosine; // of the angle between both edges
+  int image;
+  int token;
 };
 
 // The hypotheses of a token are the states begin .. end - 1 of its chain.
@@ -68,14 +82,18 @@ public:
     , Options(options)
     , MinimumSine(std::sin(Radians(options.minimumAngle)))
     , MinimumCosine(std::cos(Radians(options.angleTolerance)))
-    , Colors(reference.edges, reference.edges)
+    , Statistics(reference.edges)
+    , Colors(reference.edges, this->Statistics, this->Statistics)
+    , Continued(others.size())
+    , Meetings(others.size())
   {
     for (const ImageEdges& other : others)
     {
-      this->Images.emplace_back(reference, other, this->MinimumSine);
+      this->Images.emplace_back(reference, this->Statistics, other, this->MinimumSine);
       this->Baseline = std::max(this->Baseline, this->Images.back().pair.Baseline);
     }
     this->Lines.resize(this->Images.size());
+    this->Rays.resize(this->Images.size());
     this->Agreeing.resize(this->Images.size());
     this->AgreeingCost.resize(this->Images.size());
   }
@@ -127,51 +145,95 @@ private:
     this->Prior = std::make_unique<DisparityPrior>(pixels, disparities);
   }
 
-  // How the epipolar line of a token lies in each image.
-  void FindLines(int token)
+  // How the epipolar lines of a chain's tokens lie in each image.
+  void FindRays(int begin, int end)
   {
-    const EdgeToken& edge = this->Edges.tokens[token];
+    this->FirstRay = begin;
     for (std::size_t i = 0; i < this->Images.size(); ++i)
     {
-      const EpipolarPair& pair = this->Images[i].pair;
-      EpipolarLine& line = this->Lines[i];
-      line.ray = pair.FromReference(edge.position);
-      if (!(line.ray.scale > 0))
-      {
-        line.usable = false;
-        continue;
-      }
-      const Eigen::Matrix2d jacobian = pair.ReferenceJacobian(line.ray);
-      line.tangent = (jacobian * edge.tangent).normalized().cast<float>();
-      line.across = jacobian * edge.Normal();
-      line.usable = std::abs(line.tangent.y()) >= this->MinimumSine;
+      this->Rays[i].Compute(
+        this->Images[i].pair.ReferenceHomography(), &this->Edges.tokens[begin], end - begin);
     }
   }
 
+  // And that of one of its tokens.
+  void FindLines(int token)
+  {
+    const int k = token - this->FirstRay;
+    for (std::size_t i = 0; i < this->Images.size(); ++i)
+    {
+      const EpipolarRays& rays = this->Rays[i];
+      EpipolarLine& line = this->Lines[i];
+      line.ray = rays.At(k);
+      line.tangent =
+        Eigen::Vector2f(static_cast<float>(rays.tangentU[k]), static_cast<float>(rays.tangentV[k]));
+      line.across = { rays.acrossU[k], rays.acrossV[k] };
+      line.usable = line.ray.scale > 0 && std::abs(line.tangent.y()) >= this->MinimumSine;
+    }
+  }
+
+  // The edges on the epipolar lines of a token which an edge of another image may confirm. Few of
+  // all that cross the lines do, and only these are looked at.
+  void FindCandidates(int token)
+  {
+    const float pixels = static_cast<float>(this->Baseline);
+    this->Crossings.clear();
+    this->Meetings.Clear();
+    for (const EdgeCandidate& known : this->Candidates)
+    {
+      this->Meetings.Add(known.image, static_cast<float>(known.disparity) * pixels,
+        this->Reach(static_cast<float>(known.sigma) * pixels));
+    }
+    for (std::size_t image = 0; image < this->Images.size(); ++image)
+    {
+      if (this->Lines[image].usable && !this->Continued[image])
+      {
+        this->FindCrossings(static_cast<int>(image));
+      }
+    }
+    this->Meetings.Finish();
+    const auto alone = [this](const Crossing& crossing)
+    { return !this->Meetings.Meets(crossing.image, crossing.place, crossing.reach); };
+    this->Crossings.erase(
+      std::remove_if(this->Crossings.begin(), this->Crossings.end(), alone), this->Crossings.end());
+    for (const Crossing& crossing : this->Crossings)
+    {
+      if (!this->IsCandidate(crossing.image, crossing.token))
+      {
+        this->AddCandidate(token, crossing.image, crossing.token, crossing.u, crossing.cosine);
+      }
+    }
+  }
+
+  // How near a candidate must be to one that it can confirm, given its error; a little more than
+  // the truth, because what is near enough is looked at again.
+  float Reach(float sigma) const
+  {
+    constexpr float more = 1.01f, least = 0.01f;
+    return least + more * static_cast<float>(Promising * this->Options.tolerance) * sigma;
+  }
+
   // The edges of one image on the epipolar line of a token.
-  void FindCandidates(int token, int image)
+  void FindCrossings(int image)
   {
     const SearchImage& search = this->Images[image];
     const EpipolarLine& line = this->Lines[image];
-    if (!line.usable)
-    {
-      return;
-    }
     EpipolarIndex::Search wanted;
     wanted.near = static_cast<float>(search.pair.Column(line.ray, this->Options.maximumDisparity));
     wanted.far = static_cast<float>(search.pair.Column(line.ray, this->Options.minimumDisparity));
     wanted.tangentU = line.tangent.x();
     wanted.tangentV = line.tangent.y();
     wanted.minimumCosine = static_cast<float>(this->MinimumCosine);
-    // Along the epipolar line, both edges go from dark to bright or both from bright to dark. Not
-    // so on the silhouette of something that is brighter than what it hides here and darker there.
-    const bool down = line.tangent.y() > 0;
-    for (const bool crossed : { false, true })
-    {
-      search.index.VisitRow(line.ray.v, down != crossed, wanted,
-        [&](int other, float u, float cosine)
-        { this->AddCandidate(token, image, other, u, cosine, crossed); });
-    }
+    // Pixels of the longest baseline for each of this one's.
+    const float scale = static_cast<float>(line.ray.scale / search.pair.Baseline * this->Baseline);
+    const float zero = static_cast<float>(line.ray.u);
+    search.index.VisitRow(line.ray.v, wanted,
+      [&](int other, float u, float cosine, float width)
+      {
+        const float place = (zero - u) * scale, reach = this->Reach(width * scale);
+        this->Crossings.push_back({ place, reach, u, cosine, image, other });
+        this->Meetings.Add(image, place, reach);
+      });
   }
 
   // The edges that continue the support of a neighbour's hypotheses.
@@ -208,8 +270,7 @@ private:
       std::abs(line.tangent.x() * piece.tangentU + line.tangent.y() * piece.tangentV);
     if (within && cosine >= this->MinimumCosine && !this->IsCandidate(candidate.image, other))
     {
-      const bool crossed = (line.tangent.y() > 0) != (piece.tangentV > 0);
-      this->AddCandidate(token, candidate.image, other, column, cosine, crossed);
+      this->AddCandidate(token, candidate.image, other, column, cosine);
     }
   }
 
@@ -221,14 +282,17 @@ private:
   }
 
   // Takes a piece of another image's edge for a candidate when it looks like the token.
-  void AddCandidate(int token, int image, int other, float u, float cosine, bool crossed)
+  void AddCandidate(int token, int image, int other, float u, float cosine)
   {
     const SearchImage& search = this->Images[image];
+    const EpipolarLine& line = this->Lines[image];
+    const EpipolarIndex::Piece& piece = search.index.PieceOf(other);
+    // Along the epipolar line, both edges go from dark to bright or both from bright to dark. Not
+    // so on the silhouette of something that is brighter than what it hides here and darker there.
+    const bool crossed = (line.tangent.y() > 0) != (piece.tangentV > 0);
     const float cost = this->CompareTokens(token, search.colors, other, crossed, cosine);
     if (cost < 1)
     {
-      const EpipolarLine& line = this->Lines[image];
-      const EpipolarIndex::Piece& piece = search.index.PieceOf(other);
       const double perColumn = line.ray.scale / search.pair.Baseline;
       const double slope = piece.tangentU / piece.tangentV;
       this->Candidates.push_back({ search.pair.Disparity(line.ray, u),
@@ -308,28 +372,20 @@ private:
     this->Found.push_back(hypothesis);
   }
 
-  // The explanations of all tokens of a chain. What is matched continues over several tokens:
-  // every fourth searches its epipolar lines, those between follow what it found along the
-  // other images' edges.
+  // The explanations of all tokens of a chain. What is matched continues over several tokens: every
+  // fourth searches its epipolar lines, those between follow what it found along the other images'
+  // edges.
   void FindHypothesesAlongChain(int begin, int end)
   {
     const int stride = std::clamp(this->Options.minimumRun, 1, 4);
     this->TokenStatesOf.resize(end - begin);
-    const auto search = [&](int token)
-    {
-      this->Candidates.clear();
-      this->FindLines(token);
-      for (int image = 0; image < static_cast<int>(this->Images.size()); ++image)
-      {
-        this->FindCandidates(token, image);
-      }
-      this->TokenStatesOf[token - begin] = this->FindHypotheses(token);
-    };
-    search(begin);
+    this->FindRays(begin, end);
+    this->LastSearched = begin;
+    this->SearchFrom(begin, TokenStates());
     for (int last = begin; last + 1 < end;)
     {
       const int next = std::min(last + stride, end - 1);
-      search(next);
+      this->SearchFrom(next, this->TokenStatesOf[last - begin]);
       for (int token = last + 1; token < next; ++token)
       {
         this->Candidates.clear();
@@ -342,6 +398,56 @@ private:
       }
       last = next;
     }
+  }
+
+  // Looks for the explanations of a token: those that its neighbour leads to and, where these are
+  // not as good as can be, others along the epipolar lines.
+  void SearchFrom(int token, const TokenStates& neighbor)
+  {
+    TokenStates& states = this->TokenStatesOf[token - this->FirstRay];
+    this->Candidates.clear();
+    this->FindLines(token);
+    this->FollowCandidates(token, neighbor);
+    std::fill(this->Continued.begin(), this->Continued.end(), 0);
+    constexpr int longest = 32; // without a search, tokens
+    if (!this->Candidates.empty() && token - this->LastSearched < longest)
+    {
+      const std::size_t support = this->Scratch.size();
+      states = this->FindHypotheses(token);
+      if (this->ContinuesEverywhere(this->States[states.begin]))
+      {
+        return;
+      }
+      this->States.resize(states.begin);
+      this->Scratch.resize(support);
+    }
+    else
+    {
+      this->LastSearched = token;
+    }
+    this->FindCandidates(token);
+    states = this->FindHypotheses(token);
+  }
+
+  // Whether a hypothesis is confirmed and looks right in all images that may show it; notes those
+  // where it does.
+  bool ContinuesEverywhere(const EdgeHypothesis& best)
+  {
+    constexpr double good = 0.12; // mean cost
+    if (!best.Confirmed() || best.score > (good - 1) * best.count)
+    {
+      return false;
+    }
+    for (int k = best.begin; k < best.begin + best.count; ++k)
+    {
+      this->Continued[this->Scratch[k].image] = 1;
+    }
+    bool everywhere = true;
+    for (std::size_t image = 0; image < this->Images.size(); ++image)
+    {
+      everywhere = everywhere && (this->Continued[image] || !this->Lines[image].usable);
+    }
+    return everywhere;
   }
 
   // Appends the best explanations of a token by its candidates and "no match" to the states of its
@@ -567,14 +673,22 @@ private:
   const MatcherOptions& Options;
   double MinimumSine;
   double MinimumCosine;
-  SideColors Colors; // of the reference
+  ColorStatistics Statistics; // of the reference
+  SideColors Colors;          // of the reference
   std::vector<SearchImage> Images;
   double Baseline = 0; // the longest one
 
   std::unique_ptr<DisparityPrior> Prior; // none in the first round
 
+  std::vector<EpipolarRays> Rays; // of a chain, per image
+  int FirstRay = 0;               // the token where it begins
+  int LastSearched = 0;           // the last token that searched all its lines
+
   // One token's.
   std::vector<EpipolarLine> Lines; // per image
+  std::vector<char> Continued;     // per image: a good match goes on there
+  std::vector<Crossing> Crossings;
+  MeetingBins Meetings;
   std::vector<EdgeCandidate> Candidates;
   std::vector<EdgeHypothesis> Found;
   std::vector<std::pair<double, int>> Order;  // of what was found, by score

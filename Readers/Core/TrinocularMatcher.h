@@ -54,8 +54,10 @@ struct EdgeMatch
 ///
 /// Each token's epipolar line in another image is cut with that image's linked chains, which gives
 /// candidates with a sub-pixel disparity; edges of another direction or with other colours on both
-/// sides are not among them. A match goes on along an edge, so only every few tokens search their whole
-/// epipolar lines; those between follow what these found along the other images' chains. The better side of an edge decides, so that a silhouette is
+/// sides are not among them, nor are those that no other image's edge can confirm. A match goes on
+/// along an edge, so only every few tokens search their whole epipolar lines, and these only where no
+/// good match leads to them; the others follow what these found along the other images' chains. The
+/// better side of an edge decides, so that a silhouette is
 /// recognized by the object, whatever lies behind it. Candidates of two images that agree to within
 /// the tolerance, by the true geometry of both pairs, confirm each other and make a hypothesis. One
 /// hypothesis per token is chosen along the chain by dynamic programming, and a token of another

@@ -3,7 +3,9 @@
 
 #include "CommonVolume.h"
 #include "EpipolarIndex.h"
+#include "EpipolarRays.h"
 #include "Error.h"
+#include "MeetingBins.h"
 #include "SyntheticImages.h"
 
 #include <gtest/gtest.h>
@@ -175,25 +177,29 @@ TEST(EpipolarIndex, FindsTheSameAsLookingAtEveryPiece)
     search.tangentU = 0.6f;
     search.tangentV = 0.8f;
     search.minimumCosine = 0.7f;
-    for (const bool down : { false, true })
+    std::vector<int> expected, visited;
+    for (int token = 0; token < static_cast<int>(edges.tokens.size()); ++token)
     {
-      std::vector<int> expected, visited;
-      for (int token = 0; token < static_cast<int>(edges.tokens.size()); ++token)
+      const EpipolarIndex::Piece& piece = index.PieceOf(token);
+      const float u = piece.ColumnAt(row);
+      const float cosine = std::abs(0.6f * piece.tangentU + 0.8f * piece.tangentV);
+      if (piece.Crosses(row) && u >= search.near && u < search.far &&
+        cosine >= search.minimumCosine)
+      {
+        expected.push_back(token);
+      }
+    }
+    index.VisitRow(row, search,
+      [&](int token, float u, float, float width)
       {
         const EpipolarIndex::Piece& piece = index.PieceOf(token);
-        const float u = piece.ColumnAt(row);
-        const float cosine = std::abs(0.6f * piece.tangentU + 0.8f * piece.tangentV);
-        if (piece.Crosses(row) && (piece.tangentV > 0) == down && u >= search.near &&
-          u < search.far && cosine >= search.minimumCosine)
-        {
-          expected.push_back(token);
-        }
-      }
-      index.VisitRow(row, down, search, [&](int token, float, float) { visited.push_back(token); });
-      std::sort(visited.begin(), visited.end());
-      EXPECT_EQ(visited, expected);
-      found += static_cast<int>(expected.size());
-    }
+        EXPECT_NEAR(u, piece.ColumnAt(row), 1e-3);
+        EXPECT_FLOAT_EQ(width, piece.uncertainty / std::abs(piece.tangentV));
+        visited.push_back(token);
+      });
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(visited, expected);
+    found += static_cast<int>(expected.size());
   }
   EXPECT_GT(found, 500);
 }
@@ -225,4 +231,71 @@ TEST(EpipolarIndex, FollowsAChainToARowAndNotBeyondItsEnd)
     }
   }
   EXPECT_GT(followed, 100);
+}
+
+// Places of several images, some far along a line, held against looking at every pair.
+TEST(MeetingBins, MissNoPlaceThatMeetsAnother)
+{
+  RandomCameras random(11);
+  int met = 0, alone = 0, wrong = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    struct Place
+    {
+      int image;
+      float center, reach;
+    };
+    std::vector<Place> places;
+    MeetingBins bins(3);
+    bins.Clear();
+    for (int k = 0; k < 40; ++k)
+    {
+      places.push_back({ k % 3, static_cast<float>(random.Uniform(-900, 900)),
+        static_cast<float>(k % 7 == 0 ? random.Uniform(0, 150) : random.Uniform(0, 3)) });
+      bins.Add(places.back().image, places.back().center, places.back().reach);
+    }
+    bins.Finish();
+    for (const Place& a : places)
+    {
+      const bool expected = std::any_of(places.begin(), places.end(),
+        [&](const Place& b) {
+          return b.image != a.image && std::abs(a.center - b.center) <= std::max(a.reach, b.reach);
+        });
+      const bool found = bins.Meets(a.image, a.center, a.reach);
+      EXPECT_TRUE(found || !expected) << trial << " " << a.center << " " << a.reach;
+      met += expected;
+      alone += !expected;
+      wrong += found && !expected;
+    }
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_LT(wrong, alone / 2); // or it would save nothing
+}
+
+TEST(EpipolarRays, AreThoseOfThePairTokenByToken)
+{
+  RandomCameras random(13);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const EdgeChains edges = RandomChains(random, 20);
+  EpipolarRays rays;
+  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  {
+    const int begin = edges.begin[chain];
+    const int count = edges.begin[chain + 1] - begin - static_cast<int>(chain % 4);
+    rays.Compute(pair.ReferenceHomography(), &edges.tokens[begin], count);
+    for (int k = 0; k < count; ++k)
+    {
+      const EdgeToken& token = edges.tokens[begin + k];
+      const EpipolarPair::Ray ray = pair.FromReference(token.position);
+      EXPECT_NEAR(rays.u[k], ray.u, 1e-9);
+      EXPECT_NEAR(rays.v[k], ray.v, 1e-9);
+      EXPECT_NEAR(rays.scale[k], ray.scale, 1e-12);
+      const Eigen::Matrix2d jacobian = pair.ReferenceJacobian(ray);
+      const Eigen::Vector2d tangent = (jacobian * token.tangent).normalized();
+      const Eigen::Vector2d across = jacobian * token.Normal();
+      EXPECT_NEAR((Eigen::Vector2d(rays.tangentU[k], rays.tangentV[k]) - tangent).norm(), 0, 1e-12);
+      EXPECT_NEAR((Eigen::Vector2d(rays.acrossU[k], rays.acrossV[k]) - across).norm(), 0, 1e-9);
+    }
+  }
 }
