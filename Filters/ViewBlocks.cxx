@@ -278,6 +278,8 @@ vtkSmartPointer<vtkPolyData> BlockFromMap(const DisparityMap& map)
 {
   auto block = BlockWithPoints(map);
   vtkNew<vtkCellArray> triangles;
+  triangles->AllocateExact(
+    static_cast<vtkIdType>(map.triangles.size()), 3 * static_cast<vtkIdType>(map.triangles.size()));
   for (const auto& triangle : map.triangles)
   {
     const vtkIdType ids[3] = { triangle[0], triangle[1], triangle[2] };

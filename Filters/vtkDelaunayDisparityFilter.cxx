@@ -4,14 +4,20 @@
 #include "AlgorithmProgress.h"
 #include "ContinueBackground.h"
 #include "DelaunayDisparity.h"
+#include "FeatureCloud.h"
 #include "RejectOutliers.h"
 #include "SMPParallelFor.h"
 #include "UntrustedTriangles.h"
 #include "ViewBlocks.h"
+#include "WatchedFor.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <optional>
+#include <vector>
 
 vtkStandardNewMacro(vtkDelaunayDisparityFilter);
 
@@ -44,26 +50,36 @@ int vtkDelaunayDisparityFilter::RequestData(
     {
       freespace::DelaunayDisparityOptions own = options;
       own.minimumDisparity = false;
-      const std::vector<freespace::DisparityMap> maps =
-        freespace::TriangulateViews(views, own, freespace::SMPParallelFor, progress.Part(0.0, 0.2));
+      const std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
+        views, own, freespace::SMPParallelFor, progress.Part(0.0, 0.15));
       views = freespace::RejectOutliers(
-        views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.2, 0.3));
+        views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.15, 0.25));
     }
+    std::optional<freespace::FeatureCloud> cloud;
+    freespace::Watched(progress.Part(0.25, 0.3),
+      [&](const freespace::StopFlag& stop) { cloud.emplace(views, stop); });
     std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-      views, options, freespace::SMPParallelFor, progress.Part(0.3, 0.7));
+      views, *cloud, options, freespace::SMPParallelFor, progress.Part(0.3, 0.65));
+    views.clear();
     if (this->ContinueBackground)
     {
       freespace::ContinueBackground(
-        maps, views, background, freespace::SMPParallelFor, progress.Part(0.7, 0.9));
+        maps, *cloud, background, freespace::SMPParallelFor, progress.Part(0.65, 0.95));
     }
-    views.clear();
-    progress(0.9);
+    std::vector<vtkSmartPointer<vtkPolyData>> blocks(maps.size());
+    freespace::WatchedFor(maps.size(), freespace::SMPParallelFor, progress.Part(0.95, 1.0),
+      [&](std::size_t i, const freespace::StopFlag&)
+      {
+        freespace::RemoveUntrustedTriangles(maps[i], untrusted);
+        blocks[i] = freespace::BlockFromMap(maps[i]);
+        // Not all of them twice in memory.
+        freespace::DisparityMap named;
+        named.name = maps[i].name;
+        maps[i] = std::move(named);
+      });
     for (std::size_t i = 0; i < maps.size(); ++i)
     {
-      freespace::RemoveUntrustedTriangles(maps[i], untrusted);
-      freespace::SetNamedBlock(
-        output, static_cast<unsigned int>(i), maps[i].name, freespace::BlockFromMap(maps[i]));
-      maps[i] = {}; // not all of them twice in memory
+      freespace::SetNamedBlock(output, static_cast<unsigned int>(i), maps[i].name, blocks[i]);
     }
   }
   catch (...)

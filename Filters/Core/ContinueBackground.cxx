@@ -2,7 +2,6 @@
 #include "ContinueBackground.h"
 
 #include "Error.h"
-#include "FeatureCloud.h"
 #include "OverlappingViews.h"
 #include "ViewFreespace.h"
 #include "WatchedFor.h"
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 namespace freespace
@@ -33,35 +33,47 @@ constexpr double NearSide = 0.8;
 // A map with what is asked of it again and again.
 struct Scene
 {
-  Scene(const DisparityMap& map, const ContinueBackgroundOptions& options);
+  Scene(const DisparityMap& map, const ContinueBackgroundOptions& options, const StopFlag& stop);
 
   bool Spans(std::size_t triangle, const ContinueBackgroundOptions& options) const;
 
   const DisparityMap& map;
   ViewFreespace freespace;
-  std::vector<double> disparity;             // per point
-  std::vector<char> isBridge;                // per triangle
-  std::vector<std::vector<int>> soundAround; // per point, the triangles that are no bridges
+  std::vector<double> disparity;      // per point
+  std::vector<char> isBridge;         // per triangle
+  std::vector<int> soundBegin, sound; // around each point, the triangles that are no bridges
 };
 
-Scene::Scene(const DisparityMap& given, const ContinueBackgroundOptions& options)
+Scene::Scene(
+  const DisparityMap& given, const ContinueBackgroundOptions& options, const StopFlag& stop)
   : map(given)
-  , freespace(given)
+  , freespace(given, stop)
   , isBridge(given.triangles.size())
-  , soundAround(given.points.size())
+  , soundBegin(given.points.size() + 2, 0)
 {
+  this->disparity.reserve(given.points.size());
   for (const Vector3d& point : given.points)
   {
     this->disparity.push_back(1 / given.camera.Depth(point));
   }
   for (std::size_t t = 0; t < given.triangles.size(); ++t)
   {
+    ThrowIfStopped(stop);
     this->isBridge[t] = this->Spans(t, options);
+    for (int corner : given.triangles[t])
+    {
+      this->soundBegin[corner + 2] += this->isBridge[t] ? 0 : 1;
+    }
+  }
+  std::partial_sum(this->soundBegin.begin(), this->soundBegin.end(), this->soundBegin.begin());
+  this->sound.resize(this->soundBegin.back());
+  for (std::size_t t = 0; t < given.triangles.size(); ++t)
+  {
     for (int corner : given.triangles[t])
     {
       if (!this->isBridge[t])
       {
-        this->soundAround[corner].push_back(static_cast<int>(t));
+        this->sound[this->soundBegin[corner + 1]++] = static_cast<int>(t);
       }
     }
   }
@@ -96,7 +108,7 @@ public:
   }
 
 private:
-  static constexpr int Blocks = 128; // along each side
+  static constexpr int Blocks = 512; // along each side
 
   Eigen::Array2i Block(const Vector2d& pixel) const
   {
@@ -163,7 +175,8 @@ private:
   };
 
   std::vector<SetBackBridge> RefutedBridges(const StopFlag& stop);
-  std::vector<std::vector<Vector3d>> PointsInBridges(const FeatureCloud& cloud) const;
+  std::vector<std::vector<Vector3d>> PointsInBridges(
+    const FeatureCloud& cloud, const StopFlag& stop) const;
   double MiddleOfJump(std::size_t triangle) const;
   bool IsRefuted(std::size_t triangle) const;
   bool IsSeenThrough(const Vector3d& place) const;
@@ -235,9 +248,9 @@ std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
   this->Stamp[far] = ++this->Search;
   for (std::size_t i = 0; i < found.size() && found.size() < enough; ++i)
   {
-    for (int t : this->Own.soundAround[found[i]])
+    for (int s = this->Own.soundBegin[found[i]]; s < this->Own.soundBegin[found[i] + 1]; ++s)
     {
-      for (int corner : map.triangles[t])
+      for (int corner : map.triangles[this->Own.sound[s]])
       {
         if (this->Stamp[corner] != this->Search &&
           (map.imagePoints[corner] - map.imagePoints[far]).norm() <= radius)
@@ -287,20 +300,21 @@ std::optional<double> BackgroundContinuer::Crossing(
   constexpr double beyond = 1e-5; // of the way between the two
   const Camera& camera = this->Own.map.camera;
   const Vector3d first = camera.Unproject(pixel, 1 / from), last = camera.Unproject(pixel, 1 / to);
-  ViewFreespace::Intervals intervals;
-  other.freespace.FreeIntervals(first, last, intervals);
-  for (const auto& [begin, end] : intervals)
-  {
-    const Vector3d place = first + std::min(end + beyond, 1.0) * (last - first);
-    const ViewFreespace::Sample behind = other.freespace.At(place);
-    const bool isSurface = end < 1 && behind.triangle >= 0 && !other.isBridge[behind.triangle] &&
-      std::abs(behind.value) < SeeThrough * this->Options.noise * other.map.camera.Depth(place);
-    if (isSurface)
+  std::optional<double> crossing;
+  other.freespace.VisitFreeIntervals(first, last,
+    [&](double, double end)
     {
-      return 1 / camera.Depth(first + end * (last - first));
-    }
-  }
-  return {};
+      const Vector3d place = first + std::min(end + beyond, 1.0) * (last - first);
+      const ViewFreespace::Sample behind = other.freespace.At(place);
+      const bool isSurface = end < 1 && behind.triangle >= 0 && !other.isBridge[behind.triangle] &&
+        std::abs(behind.value) < SeeThrough * this->Options.noise * other.map.camera.Depth(place);
+      if (isSurface)
+      {
+        crossing = 1 / camera.Depth(first + end * (last - first));
+      }
+      return !isSurface;
+    });
+  return crossing;
 }
 
 // The first of the other views' surfaces behind the jump's middle; 0 where there is none.
@@ -428,13 +442,14 @@ std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBrid
 
 // All views' points that project into bridges, by triangle.
 std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
-  const FeatureCloud& cloud) const
+  const FeatureCloud& cloud, const StopFlag& stop) const
 {
   std::vector<std::vector<Vector3d>> points(this->Own.map.triangles.size());
   const BridgeMask mask(this->Own);
   cloud.VisitSeen(this->Own.map.camera,
     [&](const FeatureCloud::Feature& feature)
     {
+      ThrowIfStopped(stop);
       if (mask.MayHold(this->Own.map.camera.Project(feature.point)))
       {
         const int triangle = this->Own.freespace.At(feature.point).triangle;
@@ -452,7 +467,7 @@ DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const Stop
   DisparityMap map = this->Own.map;
   std::vector<double> disparity = this->Own.disparity;
   std::vector<std::vector<int>> setBack(map.points.size()); // behind each point
-  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud);
+  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud, stop);
   for (const SetBackBridge& bridge : this->RefutedBridges(stop))
   {
     ThrowIfStopped(stop);
@@ -514,18 +529,21 @@ void ContinueBackgroundOptions::Check() const
   }
 }
 
-void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
-  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& cloud,
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor,
+  const Progress& progress)
 {
   options.Check();
+  std::vector<double> work;
+  std::transform(maps.begin(), maps.end(), std::back_inserter(work),
+    [](const DisparityMap& map) { return static_cast<double>(map.triangles.size()); });
   std::vector<std::unique_ptr<Scene>> scenes(maps.size());
-  WatchedFor(maps.size(), parallelFor, progress.Part(0.0, 0.3),
-    [&](std::size_t v, const StopFlag&)
-    { scenes[v] = std::make_unique<Scene>(maps[v], options); });
-  const FeatureCloud cloud(views);
+  WatchedFor(work, parallelFor, progress.Part(0.0, 0.4),
+    [&](std::size_t v, const StopFlag& stop)
+    { scenes[v] = std::make_unique<Scene>(maps[v], options, stop); });
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   std::vector<DisparityMap> continued(maps.size());
-  WatchedFor(maps.size(), parallelFor, progress.Part(0.3, 1.0),
+  WatchedFor(work, parallelFor, progress.Part(0.4, 1.0),
     [&](std::size_t v, const StopFlag& stop)
     {
       BackgroundContinuer::Others others;
@@ -537,6 +555,13 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>
         BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud, stop);
     });
   maps = std::move(continued);
+}
+
+void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor,
+  const Progress& progress)
+{
+  ContinueBackground(maps, FeatureCloud(views), options, parallelFor, progress);
 }
 
 }

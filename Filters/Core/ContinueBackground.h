@@ -2,6 +2,7 @@
 #ifndef freespace_ContinueBackground_h
 #define freespace_ContinueBackground_h
 
+#include "FeatureCloud.h"
 #include "ParallelFor.h"
 #include "Progress.h"
 #include "View.h"
@@ -48,6 +49,11 @@ struct ContinueBackgroundOptions
 /// view -1, so that maps may now have two points at one pixel: one to either side of the edge.
 /// Looks at the views as they are; the order of the maps is that of the views.
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
+  const ContinueBackgroundOptions& options, const ParallelFor& parallelFor = SerialFor,
+  const Progress& progress = Progress());
+
+/// The same where the cloud of the views' features is there already.
+void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& cloud,
   const ContinueBackgroundOptions& options, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = Progress());
 

@@ -45,13 +45,24 @@ using ConstrainedTriangulation = CGAL::Constrained_Delaunay_triangulation_2<Kern
     CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
   CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
-// A world point as a view sees it.
+// Where a view sees a point.
 struct Sighting
 {
   Pixel pixel = Pixel(0, 0);
   double disparity = 0;
+};
+
+// A world point as a view sees it.
+struct SightedPoint : Sighting
+{
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   int sourceView = 0;
+};
+
+// The same of another view's feature, of which there are many and few are inserted.
+struct SightedFeature : Sighting
+{
+  const FeatureCloud::Feature* feature = nullptr;
 };
 
 // A point that may have to be inserted, linked into the list of its triangle. No more than is looked
@@ -65,7 +76,7 @@ struct Candidate
   int given;     // index of the sighting
 };
 
-bool Sight(const Camera& camera, const Eigen::Vector3d& point, int sourceView, Sighting& sighting)
+bool Sight(const Camera& camera, const Eigen::Vector3d& point, Sighting& sighting)
 {
   const double depth = camera.Depth(point);
   if (!(depth > 0)) // also where it is not a number
@@ -79,8 +90,6 @@ bool Sight(const Camera& camera, const Eigen::Vector3d& point, int sourceView, S
   }
   sighting.pixel = Pixel(pixel.x(), pixel.y());
   sighting.disparity = 1 / depth;
-  sighting.point = point;
-  sighting.sourceView = sourceView;
   return true;
 }
 
@@ -91,6 +100,31 @@ std::uint32_t SpreadBits(std::uint32_t x)
   x = (x | x << 4) & 0x0f0f0f0fu;
   x = (x | x << 2) & 0x33333333u;
   return (x | x << 1) & 0x55555555u;
+}
+
+using Key = std::pair<std::uint32_t, std::uint32_t>;
+
+// Sorts keys by their first half, equal ones left in their order: digit by digit from the least one.
+void SortByFirst(std::vector<Key>& keys)
+{
+  constexpr int digits = 3, bits = 11;
+  constexpr std::uint32_t mask = (1u << bits) - 1;
+  std::vector<Key> sorted(keys.size());
+  for (int digit = 0; digit < digits; ++digit)
+  {
+    const int shift = digit * bits;
+    std::vector<std::size_t> next(mask + 2, 0);
+    for (const Key& key : keys)
+    {
+      ++next[(key.first >> shift & mask) + 1];
+    }
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Key& key : keys)
+    {
+      sorted[next[key.first >> shift & mask]++] = key;
+    }
+    keys.swap(sorted);
+  }
 }
 
 // Indices along a space-filling curve (Morton's), so that each point is found near the one before.
@@ -104,7 +138,7 @@ std::vector<std::size_t> SpatialOrder(const Sightings& sightings)
     box.extend(Eigen::Vector2d(sighting.pixel.x(), sighting.pixel.y()));
   }
   const double scale = steps / std::max(box.sizes().maxCoeff(), 1e-9);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
+  std::vector<Key> keys;
   keys.reserve(sightings.size());
   for (const Sighting& sighting : sightings)
   {
@@ -112,7 +146,7 @@ std::vector<std::size_t> SpatialOrder(const Sightings& sightings)
     const auto y = static_cast<std::uint32_t>((sighting.pixel.y() - box.min().y()) * scale);
     keys.emplace_back(SpreadBits(x) | SpreadBits(y) << 1, static_cast<std::uint32_t>(keys.size()));
   }
-  std::sort(keys.begin(), keys.end());
+  SortByFirst(keys);
   std::vector<std::size_t> order(keys.size());
   std::transform(
     keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
@@ -137,9 +171,9 @@ public:
   {
   }
 
-  void TriangulateFeatures(const std::vector<Sighting>& features);
+  void TriangulateFeatures(const std::vector<SightedPoint>& features, const StopFlag& stop);
   void KeepEdges(const std::vector<std::array<int, 2>>& edges);
-  void AddCandidates(const std::vector<Sighting>& sightings);
+  void AddCandidates(std::vector<SightedFeature> sightings, const StopFlag& stop);
   void EnforceMinimumDisparity(double tolerance, const StopFlag& stop);
   void Fill(DisparityMap& map) const;
 
@@ -164,23 +198,25 @@ private:
   void PutInto(Face face, int candidate);
   void Enqueue(Face face);
   void Insert(int candidate, Face face);
-  std::vector<int> TakeCandidates(const std::vector<Face>& faces);
-  std::vector<Face> Star(Vertex center) const;
-  void Redistribute(
-    const std::vector<int>& candidates, const std::vector<Face>& star, Vertex center);
+  void TakeCandidates();
+  void FindStar(Vertex center);
+  void Redistribute(Vertex center);
 
   std::string Name;
-  std::vector<Sighting> Points;  // of the triangulation, by the vertex' info
-  std::vector<Vertex> OfFeature; // where each feature is or was hidden
-  std::vector<Sighting> Given;   // by the other views
+  std::vector<SightedPoint> Points;  // of the triangulation, by the vertex' info
+  std::vector<Vertex> OfFeature;     // where each feature is or was hidden
+  std::vector<SightedFeature> Given; // by the other views
   std::vector<Candidate> Candidates;
   Triangulation Delaunay;
   std::priority_queue<Highest> Queue;
   double Tolerance = 0;
+  std::vector<Face> Star;    // around the point that is being inserted
+  std::vector<int> Homeless; // the candidates that were in it
 };
 
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::TriangulateFeatures(const std::vector<Sighting>& features)
+void DisparitySurface<Triangulation>::TriangulateFeatures(
+  const std::vector<SightedPoint>& features, const StopFlag& stop)
 {
   if (features.size() < 3)
   {
@@ -192,6 +228,7 @@ void DisparitySurface<Triangulation>::TriangulateFeatures(const std::vector<Sigh
   Face hint;
   for (const std::size_t i : SpatialOrder(features))
   {
+    ThrowIfStopped(stop);
     const std::size_t before = this->Delaunay.number_of_vertices();
     const Vertex vertex = this->Delaunay.insert(features[i].pixel, hint);
     hint = vertex->face();
@@ -295,13 +332,16 @@ void DisparitySurface<Triangulation>::Enqueue(Face face)
 
 // Only points over the triangulated region can stick out of it.
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::AddCandidates(const std::vector<Sighting>& sightings)
+void DisparitySurface<Triangulation>::AddCandidates(
+  std::vector<SightedFeature> sightings, const StopFlag& stop)
 {
-  this->Given = sightings;
+  this->Given = std::move(sightings);
+  this->Candidates.reserve(this->Given.size());
   Face hint;
-  for (const std::size_t i : SpatialOrder(sightings))
+  for (const std::size_t i : SpatialOrder(this->Given))
   {
-    const Sighting& sighting = sightings[i];
+    ThrowIfStopped(stop);
+    const Sighting& sighting = this->Given[i];
     typename Triangulation::Locate_type type;
     int index = 0;
     hint = this->Delaunay.locate(sighting.pixel, type, index, hint);
@@ -315,47 +355,45 @@ void DisparitySurface<Triangulation>::AddCandidates(const std::vector<Sighting>&
   }
 }
 
+// Takes the candidates out of the star.
 template <typename Triangulation>
-std::vector<int> DisparitySurface<Triangulation>::TakeCandidates(const std::vector<Face>& faces)
+void DisparitySurface<Triangulation>::TakeCandidates()
 {
-  std::vector<int> taken;
-  for (const Face face : faces)
+  this->Homeless.clear();
+  for (const Face face : this->Star)
   {
     FaceInfo& info = face->info();
     for (int c = info.firstCandidate; c >= 0; c = this->Candidates[c].next)
     {
-      taken.push_back(c);
+      this->Homeless.push_back(c);
     }
     info.firstCandidate = -1;
     ++info.version;
   }
-  return taken;
 }
 
 // The triangles around a vertex, counter-clockwise, with the infinite ones beyond the hull.
 template <typename Triangulation>
-std::vector<typename Triangulation::Face_handle> DisparitySurface<Triangulation>::Star(
-  Vertex center) const
+void DisparitySurface<Triangulation>::FindStar(Vertex center)
 {
-  std::vector<Face> star;
+  this->Star.clear();
   auto face = this->Delaunay.incident_faces(center);
   const auto first = face;
   do
   {
-    star.push_back(face);
+    this->Star.push_back(face);
   } while (++face != first);
-  return star;
 }
 
 // Gives candidates to the triangles around a new vertex. They fill the hole that its insertion
 // made, and each spans less than half a turn: the two edges at the vertex decide which of them a
 // point is in.
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::Redistribute(
-  const std::vector<int>& candidates, const std::vector<Face>& star, Vertex center)
+void DisparitySurface<Triangulation>::Redistribute(Vertex center)
 {
+  const std::vector<Face>& star = this->Star;
   std::size_t guess = 0;
-  for (const int candidate : candidates)
+  for (const int candidate : this->Homeless)
   {
     const Pixel& pixel = this->Candidates[candidate].pixel;
     for (std::size_t tried = 0; tried < star.size(); ++tried, guess = (guess + 1) % star.size())
@@ -381,7 +419,8 @@ void DisparitySurface<Triangulation>::Redistribute(
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
 {
-  const Sighting& sighting = this->Given[this->Candidates[candidate].given];
+  const SightedFeature& given = this->Given[this->Candidates[candidate].given];
+  const SightedPoint sighting{ given, given.feature->point, given.feature->sourceView };
   typename Triangulation::Locate_type type;
   int index = 0;
   face = this->Delaunay.locate(sighting.pixel, type, index, face);
@@ -400,13 +439,13 @@ void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
   }
   // All triangles that were in conflict with the point are now, in another shape, around it, and
   // still hold their lists; on the hull, one may have become infinite.
-  std::vector<Face> star = this->Star(vertex);
-  std::vector<int> candidates = this->TakeCandidates(star);
-  candidates.erase(std::find(candidates.begin(), candidates.end(), candidate));
-  star.erase(std::remove_if(star.begin(), star.end(),
-               [this](Face around) { return this->Delaunay.is_infinite(around); }),
-    star.end());
-  this->Redistribute(candidates, star, vertex);
+  this->FindStar(vertex);
+  this->TakeCandidates();
+  this->Homeless.erase(std::find(this->Homeless.begin(), this->Homeless.end(), candidate));
+  this->Star.erase(std::remove_if(this->Star.begin(), this->Star.end(),
+                     [this](Face around) { return this->Delaunay.is_infinite(around); }),
+    this->Star.end());
+  this->Redistribute(vertex);
 }
 
 template <typename Triangulation>
@@ -433,7 +472,11 @@ void DisparitySurface<Triangulation>::EnforceMinimumDisparity(
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::Fill(DisparityMap& map) const
 {
-  for (const Sighting& sighting : this->Points)
+  map.points.reserve(this->Points.size());
+  map.imagePoints.reserve(this->Points.size());
+  map.sourceView.reserve(this->Points.size());
+  map.triangles.reserve(this->Delaunay.number_of_faces());
+  for (const SightedPoint& sighting : this->Points)
   {
     map.points.push_back(sighting.point);
     map.imagePoints.emplace_back(sighting.pixel.x(), sighting.pixel.y());
@@ -473,41 +516,49 @@ std::vector<std::array<int, 2>> SightedEdges(const View& view, const std::vector
   return edges;
 }
 
+// What a view sees of the other views' features.
+std::vector<SightedFeature> FeaturesOfOthers(
+  const Camera& camera, int index, const FeatureCloud& cloud, const StopFlag& stop)
+{
+  std::vector<SightedFeature> others;
+  SightedFeature sighting;
+  cloud.VisitSeen(camera,
+    [&](const FeatureCloud::Feature& feature)
+    {
+      ThrowIfStopped(stop);
+      if (feature.sourceView != index && Sight(camera, feature.point, sighting))
+      {
+        sighting.feature = &feature;
+        others.push_back(sighting);
+      }
+    });
+  return others;
+}
+
 template <typename Triangulation>
-DisparityMap TriangulateWith(
-  const View& view, int index, const FeatureCloud& cloud,
+DisparityMap TriangulateWith(const View& view, int index, const FeatureCloud& cloud,
   const DelaunayDisparityOptions& options, const StopFlag& stop)
 {
-  std::vector<Sighting> own, others;
+  std::vector<SightedPoint> own;
   std::vector<int> sighted(view.points.size(), -1);
-  Sighting sighting;
+  SightedPoint sighting;
+  sighting.sourceView = index;
+  own.reserve(view.points.size());
   for (std::size_t i = 0; i < view.points.size(); ++i)
   {
-    if (Sight(view.camera, view.points[i], index, sighting))
+    if (Sight(view.camera, view.points[i], sighting))
     {
       sighted[i] = static_cast<int>(own.size());
+      sighting.point = view.points[i];
       own.push_back(sighting);
     }
   }
-  if (options.minimumDisparity)
-  {
-    cloud.VisitSeen(view.camera,
-      [&](const FeatureCloud::Feature& feature)
-      {
-        if (feature.sourceView != index &&
-          Sight(view.camera, feature.point, feature.sourceView, sighting))
-        {
-          others.push_back(sighting);
-        }
-      });
-  }
   DisparitySurface<Triangulation> surface(view);
-  surface.TriangulateFeatures(own);
+  surface.TriangulateFeatures(own, stop);
   surface.KeepEdges(SightedEdges(view, sighted));
   if (options.minimumDisparity)
   {
-    surface.AddCandidates(others);
-    ThrowIfStopped(stop);
+    surface.AddCandidates(FeaturesOfOthers(view.camera, index, cloud, stop), stop);
     surface.EnforceMinimumDisparity(options.tolerance, stop);
   }
   DisparityMap map;
@@ -518,8 +569,7 @@ DisparityMap TriangulateWith(
   return map;
 }
 
-DisparityMap TriangulateOne(
-  const View& view, int index, const FeatureCloud& cloud,
+DisparityMap TriangulateOne(const View& view, int index, const FeatureCloud& cloud,
   const DelaunayDisparityOptions& options, const StopFlag& stop)
 {
   return options.keepEdges && !view.edges.empty()
@@ -533,20 +583,30 @@ DisparityMap TriangulateView(
   const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
 {
   options.Check();
-  return TriangulateOne(views[index], static_cast<int>(index), FeatureCloud(views), options, StopFlag(false));
+  return TriangulateOne(
+    views[index], static_cast<int>(index), FeatureCloud(views), options, NeverStopped);
+}
+
+std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
+  const FeatureCloud& cloud, const DelaunayDisparityOptions& options,
+  const ParallelFor& parallelFor, const Progress& progress)
+{
+  options.Check();
+  std::vector<double> work;
+  std::transform(views.begin(), views.end(), std::back_inserter(work),
+    [](const View& view) { return static_cast<double>(view.points.size()); });
+  std::vector<DisparityMap> maps(views.size());
+  WatchedFor(work, parallelFor, progress,
+    [&](std::size_t v, const StopFlag& stop)
+    { maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options, stop); });
+  return maps;
 }
 
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   const DelaunayDisparityOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
-  options.Check();
-  progress(0);
-  const FeatureCloud cloud(views);
-  std::vector<DisparityMap> maps(views.size());
-  WatchedFor(views.size(), parallelFor, progress,
-    [&](std::size_t v, const StopFlag& stop)
-    { maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options, stop); });
-  return maps;
+  const FeatureCloud cloud(options.minimumDisparity ? views : std::vector<View>());
+  return TriangulateViews(views, cloud, options, parallelFor, progress);
 }
 
 }

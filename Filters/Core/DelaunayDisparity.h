@@ -2,6 +2,7 @@
 #ifndef freespace_DelaunayDisparity_h
 #define freespace_DelaunayDisparity_h
 
+#include "FeatureCloud.h"
 #include "ParallelFor.h"
 #include "Progress.h"
 #include "View.h"
@@ -52,6 +53,11 @@ DisparityMap TriangulateView(
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   const DelaunayDisparityOptions& options, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = Progress());
+
+/// The same where the cloud of the views' features is there already; without the constraint any will do.
+std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
+  const FeatureCloud& cloud, const DelaunayDisparityOptions& options,
+  const ParallelFor& parallelFor = SerialFor, const Progress& progress = Progress());
 
 }
 

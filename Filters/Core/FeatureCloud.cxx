@@ -67,7 +67,7 @@ private:
 
 }
 
-FeatureCloud::FeatureCloud(const std::vector<View>& views)
+FeatureCloud::FeatureCloud(const std::vector<View>& views, const StopFlag& stop)
 {
   std::size_t count = 0;
   for (const View& view : views)
@@ -79,6 +79,7 @@ FeatureCloud::FeatureCloud(const std::vector<View>& views)
   {
     for (const Eigen::Vector3d& point : views[v].points)
     {
+      ThrowIfStopped(stop);
       if (point.allFinite())
       {
         this->Features.push_back({ point, static_cast<int>(v) });
@@ -89,12 +90,13 @@ FeatureCloud::FeatureCloud(const std::vector<View>& views)
       }
     }
   }
-  this->Split(0, this->Features.size());
+  this->Split(0, this->Features.size(), stop);
 }
 
 // Halves the longest side of the points' box until few are left.
-void FeatureCloud::Split(std::size_t begin, std::size_t end)
+void FeatureCloud::Split(std::size_t begin, std::size_t end, const StopFlag& stop)
 {
+  ThrowIfStopped(stop);
   if (begin == end)
   {
     return;
@@ -116,8 +118,8 @@ void FeatureCloud::Split(std::size_t begin, std::size_t end)
   std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
     first + static_cast<std::ptrdiff_t>(middle), first + static_cast<std::ptrdiff_t>(end),
     [axis](const Feature& a, const Feature& b) { return a.point[axis] < b.point[axis]; });
-  this->Split(begin, middle);
-  this->Split(middle, end);
+  this->Split(begin, middle, stop);
+  this->Split(middle, end, stop);
 }
 
 FeatureCloud::Frustum::Frustum(const Camera& camera)

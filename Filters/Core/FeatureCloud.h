@@ -2,6 +2,7 @@
 #ifndef freespace_FeatureCloud_h
 #define freespace_FeatureCloud_h
 
+#include "StopFlag.h"
 #include "View.h"
 
 #include <array>
@@ -21,8 +22,8 @@ public:
     int sourceView; ///< the first view that has it
   };
 
-  /// Takes the finite features of all views. O(n log n).
-  explicit FeatureCloud(const std::vector<View>& views);
+  /// Takes the finite features of all views. O(n log n). Throws Aborted soon after the flag is set.
+  explicit FeatureCloud(const std::vector<View>& views, const StopFlag& stop = NeverStopped);
 
   std::size_t Size() const { return this->Features.size(); }
 
@@ -64,7 +65,7 @@ private:
     std::array<Eigen::Vector4d, 5> Planes; // inside where the product is positive
   };
 
-  void Split(std::size_t begin, std::size_t end);
+  void Split(std::size_t begin, std::size_t end, const StopFlag& stop);
 
   std::vector<Feature> Features;
   std::vector<Box> Boxes;

@@ -38,19 +38,20 @@ public:
   const std::vector<int>& Nearest(int point, std::size_t count);
 
 private:
-  void Visit(int point, int center);
+  void Link();
+  void Visit(int point, int center, std::size_t count);
 
   const DisparityMap& Map;
-  std::vector<int> Begin, Corners; // per point, the corners of its triangles, some of them twice
-  std::vector<int> Stamp;          // the last search that came by
-  std::vector<std::pair<double, int>> Found;
+  std::vector<int> Begin, Neighbors;         // per point, those that it shares a triangle with
+  std::vector<int> Stamp;                    // the last search that came by
+  std::vector<std::pair<double, int>> Found; // the nearest so far, by their squared distance
   std::vector<int> Result;
 };
 
 Neighborhood::Neighborhood(const DisparityMap& map)
   : Map(map)
   , Begin(map.points.size() + 2, 0)
-  , Corners(6 * map.triangles.size())
+  , Neighbors(6 * map.triangles.size())
   , Stamp(map.points.size(), -1)
 {
   for (const auto& triangle : map.triangles)
@@ -66,20 +67,53 @@ Neighborhood::Neighborhood(const DisparityMap& map)
     for (int i = 0; i < 3; ++i)
     {
       int& next = this->Begin[triangle[i] + 1];
-      this->Corners[next++] = triangle[(i + 1) % 3];
-      this->Corners[next++] = triangle[(i + 2) % 3];
+      this->Neighbors[next++] = triangle[(i + 1) % 3];
+      this->Neighbors[next++] = triangle[(i + 2) % 3];
     }
   }
+  this->Link();
 }
 
-void Neighborhood::Visit(int point, int center)
+// Leaves each point's neighbours once: two triangles share most edges.
+void Neighborhood::Link()
 {
-  if (this->Stamp[point] != center)
+  int kept = 0;
+  for (std::size_t point = 0; point < this->Stamp.size(); ++point)
   {
-    this->Stamp[point] = center;
-    this->Found.emplace_back(
-      (this->Map.imagePoints[point] - this->Map.imagePoints[center]).squaredNorm(), point);
+    const int begin = kept;
+    for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
+    {
+      const int neighbor = this->Neighbors[i];
+      if (this->Stamp[neighbor] != static_cast<int>(point))
+      {
+        this->Stamp[neighbor] = static_cast<int>(point);
+        this->Neighbors[kept++] = neighbor;
+      }
+    }
+    this->Begin[point] = begin;
   }
+  this->Begin[this->Stamp.size()] = kept;
+  std::fill(this->Stamp.begin(), this->Stamp.end(), -1);
+}
+
+void Neighborhood::Visit(int point, int center, std::size_t count)
+{
+  if (this->Stamp[point] == center)
+  {
+    return;
+  }
+  this->Stamp[point] = center;
+  const std::pair<double, int> found(
+    (this->Map.imagePoints[point] - this->Map.imagePoints[center]).squaredNorm(), point);
+  if (this->Found.size() == count)
+  {
+    if (!(found < this->Found.back()))
+    {
+      return;
+    }
+    this->Found.pop_back();
+  }
+  this->Found.insert(std::upper_bound(this->Found.begin(), this->Found.end(), found), found);
 }
 
 const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
@@ -88,28 +122,26 @@ const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
   this->Stamp[point] = point;
   for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
   {
-    this->Visit(this->Corners[i], point);
+    this->Visit(this->Neighbors[i], point, count);
   }
-  const std::size_t ring = this->Found.size();
-  for (std::size_t i = 0; i < ring; ++i)
+  for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
   {
-    const int neighbor = this->Found[i].second;
+    const int neighbor = this->Neighbors[i];
     for (int j = this->Begin[neighbor]; j < this->Begin[neighbor + 1]; ++j)
     {
-      this->Visit(this->Corners[j], point);
+      this->Visit(this->Neighbors[j], point, count);
     }
   }
-  const auto last = this->Found.begin() + std::min(this->Found.size(), count);
-  std::partial_sort(this->Found.begin(), last, this->Found.end());
   this->Result.clear();
-  std::transform(this->Found.begin(), last, std::back_inserter(this->Result),
+  std::transform(this->Found.begin(), this->Found.end(), std::back_inserter(this->Result),
     [](const auto& found) { return found.second; });
   return this->Result;
 }
 
 // For each point the relative difference in disparity to the last of the neighbours that it needs for
 // its support. Infinite where there are not so many that a surface could join to it.
-std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersOptions& options)
+std::vector<double> LackOfSupport(
+  const DisparityMap& map, const RejectOutliersOptions& options, const StopFlag& stop)
 {
   const double focalLength = std::sqrt(std::abs(map.camera.K(0, 0) * map.camera.K(1, 1)));
   const double slope = std::tan(options.steepestAngle * M_PI / 180) / focalLength;
@@ -122,6 +154,7 @@ std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersO
   std::vector<double> lack(map.points.size(), HUGE_VAL), differences;
   for (std::size_t i = 0; i < lack.size(); ++i)
   {
+    ThrowIfStopped(stop);
     differences.clear();
     for (int other : neighborhood.Nearest(static_cast<int>(i), options.nearest))
     {
@@ -142,9 +175,10 @@ std::vector<double> LackOfSupport(const DisparityMap& map, const RejectOutliersO
 
 // Per point of a map whether enough of its neighbours agree with it. How well they must agree is
 // learned from the view: where features are sparse, the surface moves on from one to the next.
-std::vector<char> SupportedPoints(const DisparityMap& map, const RejectOutliersOptions& options)
+std::vector<char> SupportedPoints(
+  const DisparityMap& map, const RejectOutliersOptions& options, const StopFlag& stop)
 {
-  const std::vector<double> lack = LackOfSupport(map, options);
+  const std::vector<double> lack = LackOfSupport(map, options, stop);
   std::vector<double> sorted = lack;
   double typical = 0;
   if (!sorted.empty())
@@ -244,17 +278,20 @@ std::vector<std::vector<char>> AcceptedFeatures(const std::vector<View>& views,
   const bool asksOthers = options.seeThroughViews > 0 || options.violatingFeatures > 0;
   std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
   Flags supported(maps.size()), accepted(maps.size());
-  WatchedFor(maps.size(), parallelFor, progress.Part(0.0, 0.5),
-    [&](std::size_t v, const StopFlag&)
+  std::vector<double> work;
+  std::transform(maps.begin(), maps.end(), std::back_inserter(work),
+    [](const DisparityMap& map) { return static_cast<double>(map.points.size()); });
+  WatchedFor(work, parallelFor, progress.Part(0.0, 0.5),
+    [&](std::size_t v, const StopFlag& stop)
     {
-      freespaces[v] = asksOthers ? std::make_unique<ViewFreespace>(maps[v]) : nullptr;
-      supported[v] = SupportedPoints(maps[v], options);
+      freespaces[v] = asksOthers ? std::make_unique<ViewFreespace>(maps[v], stop) : nullptr;
+      supported[v] = SupportedPoints(maps[v], options, stop);
     });
   const FeatureCloud cloud(
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
   const auto overlapping =
     options.seeThroughViews > 0 ? OverlappingViews(maps) : std::vector<std::vector<int>>();
-  WatchedFor(maps.size(), parallelFor, progress.Part(0.5, 1.0),
+  WatchedFor(work, parallelFor, progress.Part(0.5, 1.0),
     [&](std::size_t v, const StopFlag& stop)
     {
       std::vector<char> passed = supported[v], behind(maps[v].points.size(), 0);

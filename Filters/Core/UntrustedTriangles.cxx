@@ -44,6 +44,10 @@ void UntrustedTrianglesOptions::Check() const
 void RemoveUntrustedTriangles(DisparityMap& map, const UntrustedTrianglesOptions& options)
 {
   options.Check();
+  if (options.longestEdge == 0 && options.greatestDepth == 0)
+  {
+    return; // there is no limit
+  }
   const auto untrusted = [&](const std::array<int, 3>& triangle)
   { return !IsTrusted(map, triangle, options); };
   map.triangles.erase(

@@ -38,24 +38,65 @@ float RoundUp(double x)
   return near + std::abs(near) * Ulp;
 }
 
-// Sorts intervals and joins those that touch, but for the last bits.
-void Join(ViewFreespace::Intervals& intervals)
+// Joins intervals that touch, but for the last bits, and hands on those that nothing can touch any more.
+class IntervalJoiner
 {
-  std::sort(intervals.begin(), intervals.end());
-  std::size_t count = 0;
-  for (const auto& interval : intervals)
+public:
+  explicit IntervalJoiner(const ViewFreespace::IntervalVisitor& visit)
+    : Visit(visit)
   {
-    if (count > 0 && interval.first <= intervals[count - 1].second + 1e-13)
+  }
+
+  // Some more, of which none begins before a place that none of the earlier ones lies beyond with its
+  // beginning. False when enough were seen.
+  bool Add(double from, ViewFreespace::Intervals& more)
+  {
+    if (this->IsOpen && !this->Touches(from) && !this->Close())
     {
-      intervals[count - 1].second = std::max(intervals[count - 1].second, interval.second);
+      return false;
     }
-    else
+    std::sort(more.begin(), more.end());
+    for (const auto& interval : more)
     {
-      intervals[count++] = interval;
+      if (this->IsOpen && this->Touches(interval.first))
+      {
+        this->Open.second = std::max(this->Open.second, interval.second);
+      }
+      else
+      {
+        if (this->IsOpen && !this->Close())
+        {
+          return false;
+        }
+        this->Open = interval;
+        this->IsOpen = true;
+      }
+    }
+    return true;
+  }
+
+  // There are no more.
+  void Finish()
+  {
+    if (this->IsOpen)
+    {
+      this->Close();
     }
   }
-  intervals.resize(count);
-}
+
+private:
+  bool Touches(double begin) const { return begin <= this->Open.second + 1e-13; }
+
+  bool Close()
+  {
+    this->IsOpen = false;
+    return this->Visit(this->Open.first, this->Open.second);
+  }
+
+  const ViewFreespace::IntervalVisitor& Visit;
+  bool IsOpen = false;
+  std::pair<double, double> Open;
+};
 
 }
 
@@ -571,75 +612,198 @@ void ViewFreespace::ClipToTriangle(const Triangle& triangle, const Vector3d& fir
   }
 }
 
-void ViewFreespace::FreeIntervals(
-  const Vector3d& firstPoint, const Vector3d& lastPoint, Intervals& intervals) const
+/// The way of a segment over the raster, cell by cell, or block by block where it is far from the map.
+class ViewFreespace::SegmentWalk
 {
-  intervals.clear();
-  const Vector3d first = this->Raster(firstPoint), last = this->Raster(lastPoint);
-  // The part that is in front of the camera and over the raster.
-  double begin = 0.0, end = 1.0;
-  const auto clip = [&](double atFirst, double atLast)
+public:
+  SegmentWalk(const ViewFreespace& view, const Vector3d& first, const Vector3d& last)
+    : View(view)
+    , First(first)
+    , Last(last)
+    , Size{ view.Width, view.Height }
   {
-    begin = atFirst < 0 ? std::max(begin, atLast < 0 ? 2.0 : atFirst / (atFirst - atLast)) : begin;
-    end = atLast < 0 ? std::min(end, atFirst < 0 ? -1.0 : atFirst / (atFirst - atLast)) : end;
+    this->ClipToRaster();
+    if (this->IsOverRaster())
+    {
+      this->CellAt(this->Here, this->At);
+      this->CellAt(this->End, this->Goal);
+    }
+  }
+
+  bool IsOverRaster() const { return this->Here <= this->End && !this->View.Triangles.empty(); }
+
+  // Hands all that is free to the joiner.
+  void Run(IntervalJoiner& joiner)
+  {
+    Intervals intervals;
+    for (bool hasMore = true; hasMore;)
+    {
+      const double from = this->Here;
+      intervals.clear();
+      Step step = this->StepOver(BlockLevel);
+      const bool isFar = this->CellsToGo() > BlockSize;
+      if (!isFar || !this->IsDecided(step, intervals))
+      {
+        step = this->StepOver(0);
+        this->View.AddFreeInCell(
+          static_cast<std::size_t>(this->At[1]) * this->Size[0] + this->At[0], this->First,
+          this->Last, this->Here, step.next, intervals);
+      }
+      if (!joiner.Add(from, intervals))
+      {
+        return;
+      }
+      hasMore = step.axis >= 0;
+      this->Take(step);
+    }
+    joiner.Finish();
+  }
+
+private:
+  static constexpr int BlockLevel = 3; // of the pyramid
+  static constexpr int BlockSize = 1 << BlockLevel;
+
+  // Out of a square of cells: where, and over which side; none where the segment ends in it.
+  struct Step
+  {
+    int level;
+    double next;
+    int axis;
   };
-  const double near = 1e-9 * std::max(std::abs(first.z()), std::abs(last.z()));
-  clip(first.z() - near, last.z() - near);
-  const double size[2] = { static_cast<double>(this->Width), static_cast<double>(this->Height) };
-  for (int axis = 0; axis < 2; ++axis)
+
+  // The part that is in front of the camera and over the raster.
+  void ClipToRaster()
   {
-    clip(first[axis], last[axis]);
-    clip(size[axis] * first.z() - first[axis], size[axis] * last.z() - last[axis]);
-  }
-  if (!(begin <= end) || this->Triangles.empty())
-  {
-    return;
-  }
-  const auto at = [&](double s) { return Vector3d(first + s * (last - first)); };
-  const Vector2d from = at(begin).hnormalized(), to = at(end).hnormalized();
-  int cell[2], lastCell[2];
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const int most = static_cast<int>(size[axis]) - 1;
-    cell[axis] = std::clamp(static_cast<int>(from[axis]), 0, most);
-    lastCell[axis] = std::clamp(static_cast<int>(to[axis]), 0, most);
-  }
-  double here = begin;
-  while (true)
-  {
-    // Where the segment crosses into the next cell, and over which side.
-    double next = end;
-    int side = -1;
+    const Vector3d &first = this->First, &last = this->Last;
+    const auto clip = [this](double atFirst, double atLast)
+    {
+      const double crossing = atFirst / (atFirst - atLast);
+      this->Here = atFirst < 0 ? std::max(this->Here, atLast < 0 ? 2.0 : crossing) : this->Here;
+      this->End = atLast < 0 ? std::min(this->End, atFirst < 0 ? -1.0 : crossing) : this->End;
+    };
+    const double near = 1e-9 * std::max(std::abs(first.z()), std::abs(last.z()));
+    clip(first.z() - near, last.z() - near);
     for (int axis = 0; axis < 2; ++axis)
     {
-      if (cell[axis] != lastCell[axis])
+      clip(first[axis], last[axis]);
+      clip(this->Size[axis] * first.z() - first[axis], this->Size[axis] * last.z() - last[axis]);
+    }
+  }
+
+  void CellAt(double place, int cell[2]) const
+  {
+    const Vector2d pixel = (this->First + place * (this->Last - this->First)).hnormalized();
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      cell[axis] = std::clamp(static_cast<int>(pixel[axis]), 0, this->Size[axis] - 1);
+    }
+  }
+
+  int CellsToGo() const
+  {
+    return std::abs(this->Goal[0] - this->At[0]) + std::abs(this->Goal[1] - this->At[1]);
+  }
+
+  Step StepOver(int level) const
+  {
+    Step step{ level, this->End, -1 };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const int square = this->At[axis] >> level, goal = this->Goal[axis] >> level;
+      if (square != goal)
       {
-        const double border = cell[axis] + (lastCell[axis] > cell[axis] ? 1 : 0);
-        const double a = first[axis] - border * first.z(), b = last[axis] - border * last.z();
-        const double crossing = std::clamp(a / (a - b), here, end);
-        if (side < 0 || crossing < next)
+        const double border = (square + (goal > square ? 1 : 0)) << level;
+        const double a = this->First[axis] - border * this->First.z();
+        const double b = this->Last[axis] - border * this->Last.z();
+        const double crossing = std::clamp(a / (a - b), this->Here, this->End);
+        if (step.axis < 0 || crossing < step.next)
         {
-          next = crossing;
-          side = axis;
+          step.next = crossing;
+          step.axis = axis;
         }
       }
     }
-    this->AddFreeInCell(cell[0], cell[1], first, last, here, next, intervals);
-    if (side < 0)
-    {
-      break;
-    }
-    here = next;
-    cell[side] += lastCell[side] > cell[side] ? 1 : -1;
+    return step;
   }
-  Join(intervals);
+
+  // Whether the way over a block is free, or not free, as a whole.
+  bool IsDecided(const Step& step, Intervals& intervals) const
+  {
+    if (this->View.Pyramid.size() <= BlockLevel)
+    {
+      return false;
+    }
+    const Level& blocks = this->View.Pyramid[BlockLevel];
+    const auto [low, high] =
+      blocks.bounds[static_cast<std::size_t>(this->At[1] >> BlockLevel) * blocks.width +
+        (this->At[0] >> BlockLevel)];
+    const double depthBegin = this->First.z() + this->Here * (this->Last.z() - this->First.z());
+    const double depthEnd = this->First.z() + step.next * (this->Last.z() - this->First.z());
+    if (high * std::max(depthBegin, depthEnd) < 1.0)
+    {
+      intervals.emplace_back(this->Here, step.next);
+      return true;
+    }
+    return low * std::min(depthBegin, depthEnd) > 1.0;
+  }
+
+  void Take(const Step& step)
+  {
+    if (step.axis < 0)
+    {
+      return;
+    }
+    this->Here = step.next;
+    const int axis = step.axis, other = 1 - axis;
+    const int square = this->At[axis] >> step.level;
+    this->At[axis] =
+      this->Goal[axis] > this->At[axis] ? (square + 1) << step.level : (square << step.level) - 1;
+    if (step.level > 0)
+    {
+      // Along the block's side, never back nor beyond the goal.
+      int cell[2];
+      this->CellAt(this->Here, cell);
+      const auto [least, most] = std::minmax(this->At[other], this->Goal[other]);
+      const int low = (this->At[other] >> step.level) << step.level;
+      this->At[other] =
+        std::clamp(cell[other], std::max(least, low), std::min(most, low + (1 << step.level) - 1));
+    }
+  }
+
+  const ViewFreespace& View;
+  const Vector3d First, Last;
+  const int Size[2];
+  double Here = 0.0, End = 1.0;
+  int At[2] = { 0, 0 }, Goal[2] = { 0, 0 };
+};
+
+void ViewFreespace::VisitFreeIntervals(
+  const Vector3d& first, const Vector3d& last, const IntervalVisitor& visit) const
+{
+  SegmentWalk walk(*this, this->Raster(first), this->Raster(last));
+  if (walk.IsOverRaster())
+  {
+    IntervalJoiner joiner(visit);
+    walk.Run(joiner);
+  }
+}
+
+void ViewFreespace::FreeIntervals(
+  const Vector3d& first, const Vector3d& last, Intervals& intervals) const
+{
+  intervals.clear();
+  this->VisitFreeIntervals(first, last,
+    [&intervals](double begin, double end)
+    {
+      intervals.emplace_back(begin, end);
+      return true;
+    });
 }
 
 // The free part of the range of a segment that lies over one cell.
-void ViewFreespace::AddFreeInCell(int column, int row, const Vector3d& first, const Vector3d& last,
+void ViewFreespace::AddFreeInCell(std::size_t index, const Vector3d& first, const Vector3d& last,
   double begin, double end, Intervals& intervals) const
 {
-  const std::size_t index = static_cast<std::size_t>(row) * this->Width + column;
   const Cell& cell = this->Cells[index];
   if (cell.triangle < 0)
   {

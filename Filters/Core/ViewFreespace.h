@@ -7,6 +7,7 @@
 #include "View.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace freespace
 {
@@ -53,6 +54,11 @@ public:
   using Intervals = std::vector<std::pair<double, double>>;
   void FreeIntervals(
     const Eigen::Vector3d& first, const Eigen::Vector3d& last, Intervals& intervals) const;
+
+  /// The same one by one, until the visitor returns false: it has seen enough.
+  using IntervalVisitor = std::function<bool(double begin, double end)>;
+  void VisitFreeIntervals(
+    const Eigen::Vector3d& first, const Eigen::Vector3d& last, const IntervalVisitor& visit) const;
 
   /// Whether the view sees a surface of this normal so nearly edge-on (above 85 degrees) that it must
   /// be a jump in depth: a triangle from an occluding edge to what lies behind it, which nobody saw.
@@ -135,7 +141,8 @@ private:
     return static_cast<std::size_t>(static_cast<int>(y)) * this->Width + static_cast<int>(x);
   }
   int LocateInCell(double x, double y) const;
-  void AddFreeInCell(int column, int row, const Eigen::Vector3d& first, const Eigen::Vector3d& last,
+  class SegmentWalk;
+  void AddFreeInCell(std::size_t cell, const Eigen::Vector3d& first, const Eigen::Vector3d& last,
     double begin, double end, Intervals& intervals) const;
   int Find(const Pixel& pixel) const;
   double Disparity(const Triangle& triangle, double x, double y) const;

@@ -318,6 +318,113 @@ TEST(ViewFreespace, IntervalsOfSegmentsAgreeWithTheirPoints)
   }
 }
 
+namespace
+{
+
+// A map of so many triangles that the way over it is taken block by block: hills, a step and holes.
+DisparityMap FineMap(unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  DisparityMap map;
+  map.camera = LookingAt({ 0, 0, -3 }, { 0.1 * uniform(random), 0, 0 });
+  constexpr int n = 60;
+  const double step = 20 + 60 * uniform(random);
+  for (int i = 0; i <= n; ++i)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      const Vector2d pixel(
+        5 + 90.0 * (j + 0.6 * uniform(random)) / n, 5 + 70.0 * (i + 0.6 * uniform(random)) / n);
+      const double hills = 0.4 * std::sin(0.11 * pixel.x()) * std::cos(0.13 * pixel.y());
+      map.imagePoints.push_back(pixel);
+      map.points.push_back(map.camera.Unproject(pixel, 3 + hills + (pixel.x() > step ? 0.8 : 0.0)));
+      map.sourceView.push_back(0);
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      const int a = i * (n + 1) + j, b = a + 1, c = a + n + 1, d = c + 1;
+      if (uniform(random) > 0.003)
+      {
+        map.triangles.push_back({ a, b, d });
+        map.triangles.push_back({ a, d, c });
+      }
+    }
+  }
+  return map;
+}
+
+}
+
+TEST(ViewFreespace, LongSegmentsOverAFineMapAgreeWithTheirPoints)
+{
+  std::size_t total = 0;
+  for (unsigned int seed = 0; seed < 10; ++seed)
+  {
+    std::srand(seed);
+    const ViewFreespace view(FineMap(seed));
+    ViewFreespace::Intervals intervals;
+    for (int i = 0; i < 100; ++i)
+    {
+      const double depth = i % 4 == 0 ? 0.0 : 0.7;
+      const Vector3d first = Vector3d::Random().cwiseProduct(Vector3d(2, 2, depth));
+      const Vector3d last = Vector3d::Random().cwiseProduct(Vector3d(2, 2, 0.7));
+      view.FreeIntervals(first, last, intervals);
+      total += intervals.size();
+      for (std::size_t k = 0; k < intervals.size(); ++k)
+      {
+        ASSERT_LE(intervals[k].first, intervals[k].second);
+        ASSERT_TRUE(k == 0 || intervals[k].first > intervals[k - 1].second);
+      }
+      for (int j = 0; j <= 500; ++j)
+      {
+        const double s = j / 500.0;
+        bool inside = false, close = false;
+        for (const auto& [begin, end] : intervals)
+        {
+          inside = inside || (s >= begin && s <= end);
+          close = close || std::abs(s - begin) < 1e-7 || std::abs(s - end) < 1e-7;
+        }
+        if (!close)
+        {
+          ASSERT_EQ(view.IsFree(first + s * (last - first)), inside) << seed << " at " << s;
+        }
+      }
+    }
+  }
+  EXPECT_GT(total, 1000u);
+}
+
+TEST(ViewFreespace, AVisitorOfIntervalsMayStop)
+{
+  const ViewFreespace view(FineMap(1));
+  std::srand(1);
+  ViewFreespace::Intervals all;
+  int several = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const Vector3d first = Vector3d::Random().cwiseProduct(Vector3d(2, 2, 0.7));
+    const Vector3d last = Vector3d::Random().cwiseProduct(Vector3d(2, 2, 0.7));
+    view.FreeIntervals(first, last, all);
+    several += all.size() > 1;
+    for (std::size_t enough = 1; enough <= all.size(); ++enough)
+    {
+      ViewFreespace::Intervals seen;
+      view.VisitFreeIntervals(first, last,
+        [&](double begin, double end)
+        {
+          seen.emplace_back(begin, end);
+          return seen.size() < enough;
+        });
+      ASSERT_EQ(seen, ViewFreespace::Intervals(all.begin(), all.begin() + enough));
+    }
+  }
+  EXPECT_GT(several, 20);
+}
+
 TEST(ViewFreespace, ATriangleSeenEdgeOnIsAJump)
 {
   // Two steps of a stair and the riser between them, which the view sees but for a hair edge-on.
