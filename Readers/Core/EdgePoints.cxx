@@ -234,7 +234,7 @@ struct Neighbors
   int ahead = -1, behind = -1;
   float aheadDistance = NoLink, behindDistance = -NoLink;
 
-  void Add(const std::vector<EdgePoint>& points, int i, int j)
+  void Add(const LargeVector<EdgePoint>& points, int i, int j)
   {
     const float distance = LinkDistance(points[i], points[j]);
     const bool nearerAhead = (distance > 0) & (distance < this->aheadDistance);
@@ -248,7 +248,7 @@ struct Neighbors
 
 // Those of point i in the pixel (x, y): next to it or, where there is none, a pixel farther.
 Neighbors FindNeighbors(
-  const std::vector<EdgePoint>& points, const PointIndex& index, int x, int y, int i)
+  const LargeVector<EdgePoint>& points, const PointIndex& index, int x, int y, int i)
 {
   static_assert(LinkRadius == 2, "the bits of a window of five pixels");
   constexpr std::uint64_t whole = 0x1f1f1f1f1f, next = 0x0e0a0e00, middle = 0x040000;
@@ -286,7 +286,7 @@ void Link(LinkedPoints& edges, int from, int to)
 // Links a point to the best one ahead and behind; a point that two want goes to the nearer.
 void LinkToNeighbors(LinkedPoints& edges, const Neighbors& best, int i)
 {
-  const std::vector<EdgePoint>& points = edges.points;
+  const LargeVector<EdgePoint>& points = edges.points;
   if (best.ahead >= 0 && edges.next[i] != best.ahead)
   {
     const int rival = edges.previous[best.ahead];

@@ -2,6 +2,8 @@
 #ifndef freespace_EdgePoints_h
 #define freespace_EdgePoints_h
 
+#include "LargeVector.h"
+
 #include <vector>
 
 namespace cv
@@ -23,7 +25,7 @@ struct EdgePoint
 /// Points and how they are linked. Who goes along an edge finds the numbers close together.
 struct LinkedPoints
 {
-  std::vector<EdgePoint> points;
+  LargeVector<EdgePoint> points;
   std::vector<int> next;     ///< of each point the one that goes on with the edge, the gradient
                              ///< pointing to the right; -1 for none
   std::vector<int> previous; ///< the point whose next one is this; -1 for none

@@ -15,8 +15,8 @@ constexpr double LongestGap = 12; // within a run, pixels
 class RunMatcher
 {
 public:
-  RunMatcher(const EdgeChains& edges, std::vector<EdgeHypothesis>& chosen,
-    const std::vector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
+  RunMatcher(const EdgeChains& edges, LargeVector<EdgeHypothesis>& chosen,
+    const LargeVector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
     : Edges(edges)
     , Chosen(chosen)
     , Support(support)
@@ -27,7 +27,7 @@ public:
   {
   }
 
-  std::vector<EdgeMatch> Match()
+  LargeVector<EdgeMatch> Match()
   {
     for (EdgeHypothesis& hypothesis : this->Chosen)
     {
@@ -289,19 +289,19 @@ private:
   }
 
   const EdgeChains& Edges;
-  std::vector<EdgeHypothesis>& Chosen;
-  const std::vector<EdgeCandidate>& Support;
+  LargeVector<EdgeHypothesis>& Chosen;
+  const LargeVector<EdgeCandidate>& Support;
   double Baseline;
   const MatcherOptions& Options;
-  std::vector<EdgeMatch> Matches;
+  LargeVector<EdgeMatch> Matches;
   std::vector<double> Residual; // per token, pixels across the edge
   int NumberOfRuns = 0;
 };
 
 }
 
-std::vector<EdgeMatch> MatchRuns(const EdgeChains& edges, std::vector<EdgeHypothesis> chosen,
-  const std::vector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
+LargeVector<EdgeMatch> MatchRuns(const EdgeChains& edges, LargeVector<EdgeHypothesis> chosen,
+  const LargeVector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
 {
   return RunMatcher(edges, chosen, support, baseline, options).Match();
 }

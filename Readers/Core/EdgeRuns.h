@@ -24,8 +24,8 @@ inline double DisparityJump(const EdgeHypothesis& from, const EdgeHypothesis& to
 /// lie on the line through its neighbours is dropped, and so are pieces that are too short. A token
 /// without confirmation by a third image stays only where it closes a gap between two that have it.
 /// One match per token.
-std::vector<EdgeMatch> MatchRuns(const EdgeChains& edges, std::vector<EdgeHypothesis> chosen,
-  const std::vector<EdgeCandidate>& support, double baseline, const MatcherOptions& options);
+LargeVector<EdgeMatch> MatchRuns(const EdgeChains& edges, LargeVector<EdgeHypothesis> chosen,
+  const LargeVector<EdgeCandidate>& support, double baseline, const MatcherOptions& options);
 
 }
 

@@ -133,7 +133,7 @@ void AddFeature(const EdgeToken& token, const EdgeMatch& match, EdgeView& view)
 }
 
 // Turns matches into features and runs into chains.
-void FillView(const EdgeChains& edges, const std::vector<EdgeMatch>& matches, EdgeView& view)
+void FillView(const EdgeChains& edges, const LargeVector<EdgeMatch>& matches, EdgeView& view)
 {
   int run = -1;
   for (std::size_t i = 0; i < matches.size(); ++i)

@@ -44,11 +44,45 @@ std::vector<double> ParabolaWeights(int radius)
   return weights;
 }
 
+// The mean of each pixel and its eight neighbours, so that a single sample stands for its surroundings.
+// One byte more stands behind it in memory, so that four can be taken at once.
+struct BlurredColors
+{
+  explicit BlurredColors(const cv::Mat& image);
+
+  ImageLayout layout;
+  LargeVector<std::uint8_t> bytes;
+};
+
+BlurredColors::BlurredColors(const cv::Mat& image)
+  : layout{ image.cols, image.rows, 3 * image.cols }
+{
+  cv::Mat colors = image;
+  if (image.channels() == 1)
+  {
+    cv::cvtColor(image, colors, cv::COLOR_GRAY2BGR);
+  }
+  const int width = 3 * colors.cols, last = colors.rows - 1;
+  this->bytes.resize(static_cast<std::size_t>(width) * colors.rows + 1);
+  std::vector<std::uint16_t> sums(width + 6); // of three rows, with a pixel more at both ends
+  for (int y = 0; y <= last; ++y)
+  {
+    const std::uint8_t* above = colors.ptr<std::uint8_t>(std::max(0, y - 1));
+    const std::uint8_t* here = colors.ptr<std::uint8_t>(y);
+    const std::uint8_t* below = colors.ptr<std::uint8_t>(std::min(last, y + 1));
+    std::uint16_t* sum = sums.data() + 3;
+    SumOfThree(above, here, below, width, sum);
+    std::copy_n(sum, 3, sum - 3);
+    std::copy_n(sum + width - 3, 3, sum + width);
+    MeanOfNine(sum, width, &this->bytes[static_cast<std::size_t>(width) * y]);
+  }
+}
+
 // Turns linked points into tokens, a chain at a time.
 class TokenMaker
 {
 public:
-  TokenMaker(const std::vector<EdgePoint>& points, const cv::Mat& colors, int fitRadius)
+  TokenMaker(const LargeVector<EdgePoint>& points, const BlurredColors& colors, int fitRadius)
     : Points(points)
     , Colors(colors)
   {
@@ -63,7 +97,7 @@ public:
   }
 
   // Appends the tokens of a chain; a closed one has no ends.
-  void Make(const std::vector<int>& chain, bool closed, std::vector<EdgeToken>& tokens)
+  void Make(const std::vector<int>& chain, bool closed, LargeVector<EdgeToken>& tokens)
   {
     this->GoTo(chain, closed);
     this->Fit();
@@ -161,13 +195,11 @@ private:
 
   void FindColors()
   {
-    const ImageLayout layout{ this->Colors.cols, this->Colors.rows,
-      static_cast<int>(this->Colors.step[0]) };
     for (std::size_t place = 0; place < ColorPlaces.size(); ++place)
     {
       this->Offsets[place].resize(this->Size);
       PixelOffsets(this->X.data(), this->Y.data(), this->TangentX.data(), this->TangentY.data(),
-        this->Size, ColorPlaces[place], layout, this->Offsets[place].data());
+        this->Size, ColorPlaces[place], this->Colors.layout, this->Offsets[place].data());
     }
   }
 
@@ -185,7 +217,7 @@ private:
   EdgeColor ColorAt(int offset) const
   {
     EdgeColor color;
-    std::memcpy(color.data(), this->Colors.data + offset, color.size());
+    std::memcpy(color.data(), this->Colors.bytes.data() + offset, color.size());
     color[3] = 0;
     return color;
   }
@@ -195,8 +227,8 @@ private:
     std::vector<double> value, slope;
   };
 
-  const std::vector<EdgePoint>& Points;
-  const cv::Mat& Colors;
+  const LargeVector<EdgePoint>& Points;
+  const BlurredColors& Colors;
   std::vector<FitWeights> Weights; // by radius
 
   // The chain at hand.
@@ -207,33 +239,6 @@ private:
   std::vector<double> X, Y, AlongX, AlongY, TangentX, TangentY;
   std::array<std::vector<int>, ColorPlaces.size()> Offsets; // of the pixels with the colours
 };
-
-// The mean of each pixel and its eight neighbours, so that a single sample stands for its surroundings.
-// Below the image stands a row more in memory.
-cv::Mat BlurredColors(const cv::Mat& image)
-{
-  cv::Mat colors = image;
-  if (image.channels() == 1)
-  {
-    cv::cvtColor(image, colors, cv::COLOR_GRAY2BGR);
-  }
-  const int width = 3 * colors.cols, last = colors.rows - 1;
-  const cv::Mat padded(colors.rows + 1, colors.cols, CV_8UC3);
-  cv::Mat blurred = padded.rowRange(0, colors.rows);
-  std::vector<std::uint16_t> sums(width + 6); // of three rows, with a pixel more at both ends
-  for (int y = 0; y <= last; ++y)
-  {
-    const std::uint8_t* above = colors.ptr<std::uint8_t>(std::max(0, y - 1));
-    const std::uint8_t* here = colors.ptr<std::uint8_t>(y);
-    const std::uint8_t* below = colors.ptr<std::uint8_t>(std::min(last, y + 1));
-    std::uint16_t* sum = sums.data() + 3;
-    SumOfThree(above, here, below, width, sum);
-    std::copy_n(sum, 3, sum - 3);
-    std::copy_n(sum + width - 3, 3, sum + width);
-    MeanOfNine(sum, width, blurred.ptr<std::uint8_t>(y));
-  }
-  return blurred;
-}
 
 // Follows the links from each chain's first point, then around the closed chains.
 template <typename Visitor>
@@ -286,7 +291,7 @@ EdgeChains FindEdges(const cv::Mat& image, const EdgeTokenOptions& options)
     return edges;
   }
   const LinkedPoints points = FindEdgePoints(image, options.smoothing, options.lowContrast);
-  const cv::Mat colors = BlurredColors(image);
+  const BlurredColors colors(image);
   TokenMaker maker(points.points, colors, options.fitRadius);
   edges.tokens.reserve(points.points.size());
   VisitChains(points,

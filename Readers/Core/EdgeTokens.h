@@ -2,6 +2,8 @@
 #ifndef freespace_EdgeTokens_h
 #define freespace_EdgeTokens_h
 
+#include "LargeVector.h"
+
 #include <Eigen/Dense>
 
 #include <array>
@@ -60,7 +62,7 @@ struct EdgeToken
 /// The edges of an image, linked. Chain c consists of the tokens [begin[c], begin[c + 1]) in order.
 struct EdgeChains
 {
-  std::vector<EdgeToken> tokens;
+  LargeVector<EdgeToken> tokens;
   std::vector<int> begin = { 0 };
 
   std::size_t NumberOfChains() const { return this->begin.size() - 1; }

@@ -12,11 +12,11 @@ namespace freespace
 namespace
 {
 
-std::vector<EpipolarIndex::Piece> RectifiedPieces(
+LargeVector<EpipolarIndex::Piece> RectifiedPieces(
   const EpipolarPair& pair, const EdgeChains& edges, double minimumSine)
 {
   constexpr double leastScale = 0.34; // cosine of 70 degrees
-  std::vector<EpipolarIndex::Piece> pieces(edges.tokens.size());
+  LargeVector<EpipolarIndex::Piece> pieces(edges.tokens.size());
   EpipolarRays rays;
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
   {

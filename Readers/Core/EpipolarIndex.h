@@ -136,8 +136,8 @@ private:
     int token[4];
   };
 
-  std::vector<Piece> Pieces;      // per token
-  std::vector<PieceBlock> Blocks; // by cell; in that of their start, in each row that they touch
+  LargeVector<Piece> Pieces;      // per token
+  LargeVector<PieceBlock> Blocks; // by cell; in that of their start, in each row that they touch
   std::vector<int> Begin;         // of each cell and one past the last, rows x columns
   int Rows = 0;
   int Columns = 0;

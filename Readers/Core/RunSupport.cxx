@@ -17,7 +17,7 @@ class AcceptedTokens
 {
 public:
   AcceptedTokens(
-    const std::vector<EdgeMatch>& matches, double baseline, const MatcherOptions& options)
+    const LargeVector<EdgeMatch>& matches, double baseline, const MatcherOptions& options)
     : Matches(matches)
     , Baseline(baseline)
     , Options(options)
@@ -71,7 +71,7 @@ private:
       slack + this->Options.gradientLimit * distance;
   }
 
-  const std::vector<EdgeMatch>& Matches;
+  const LargeVector<EdgeMatch>& Matches;
   double Baseline;
   const MatcherOptions& Options;
   int Rows = 0;
@@ -81,7 +81,7 @@ private:
 }
 
 void DropLonelyRuns(const EdgeChains& edges, double baseline, const MatcherOptions& options,
-  std::vector<EdgeMatch>& matches)
+  LargeVector<EdgeMatch>& matches)
 {
   std::vector<std::vector<int>> runs;
   for (int i = 0; i < static_cast<int>(edges.tokens.size()); ++i)

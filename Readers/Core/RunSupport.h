@@ -13,7 +13,7 @@ namespace freespace
 /// a single one, far behind the scene, makes a wedge of free space through everything before it.
 /// `baseline`: see EpipolarPair, of the longest pair.
 void DropLonelyRuns(const EdgeChains& edges, double baseline, const MatcherOptions& options,
-  std::vector<EdgeMatch>& matches);
+  LargeVector<EdgeMatch>& matches);
 
 }
 

@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  std::vector<std::array<EdgeSide, 2>> Sides; // per token
+  LargeVector<std::array<EdgeSide, 2>> Sides; // per token
 };
 
 }

@@ -98,7 +98,7 @@ public:
     this->AgreeingCost.resize(this->Images.size());
   }
 
-  std::vector<EdgeMatch> Match()
+  LargeVector<EdgeMatch> Match()
   {
     this->Chosen.resize(this->Edges.tokens.size());
     this->Support.reserve(this->Images.size() * this->Edges.tokens.size());
@@ -116,7 +116,7 @@ public:
       this->ChooseAlongChain(this->Edges.begin[chain], this->Edges.begin[chain + 1]);
     }
     this->EnforceUniqueness();
-    std::vector<EdgeMatch> matches =
+    LargeVector<EdgeMatch> matches =
       MatchRuns(this->Edges, std::move(this->Chosen), this->Support, this->Baseline, this->Options);
     DropLonelyRuns(this->Edges, this->Baseline, this->Options, matches);
     return matches;
@@ -701,8 +701,8 @@ private:
   std::vector<double> StateCost; // of the best way to each state
   std::vector<int> StateFrom;    // and the state before it on that way
   // The result: one hypothesis per token, and their support.
-  std::vector<EdgeHypothesis> Chosen;
-  std::vector<EdgeCandidate> Support;
+  LargeVector<EdgeHypothesis> Chosen;
+  LargeVector<EdgeCandidate> Support;
 };
 
 }
@@ -725,7 +725,7 @@ void MatcherOptions::Check() const
   }
 }
 
-std::vector<EdgeMatch> MatchEdges(
+LargeVector<EdgeMatch> MatchEdges(
   const ImageEdges& reference, const std::vector<ImageEdges>& others, const MatcherOptions& options)
 {
   options.Check();

@@ -65,7 +65,7 @@ struct EdgeMatch
 /// to the edge lines in all images, in pixels.
 ///
 /// Returns one match per token. Needs two others at least.
-std::vector<EdgeMatch> MatchEdges(const ImageEdges& reference,
+LargeVector<EdgeMatch> MatchEdges(const ImageEdges& reference,
   const std::vector<ImageEdges>& others, const MatcherOptions& options);
 
 }

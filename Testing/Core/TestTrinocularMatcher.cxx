@@ -23,7 +23,7 @@ const std::vector<int> Cross = { 0, 1, 2, 3, 4 };
 struct Trial
 {
   std::vector<ImageEdges> images;
-  std::vector<EdgeMatch> matches; // per token of the first image
+  LargeVector<EdgeMatch> matches; // per token of the first image
 
   int Matched() const
   {
