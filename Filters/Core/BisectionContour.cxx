@@ -129,8 +129,15 @@ struct SharpOffer
   SharpFeature feature;
 };
 
-/// A cell's face on which two corners in matter, opposite to each other, hang together.
-struct JoinedFace
+/// A cell's faces on which two corners in matter, opposite to each other, hang together.
+struct JoinedFaces
+{
+  std::size_t cell; ///< place in the block's cells
+  int faces;        ///< one bit for each
+};
+
+/// A face of a cell, over which its sharp vertex is joined to the next cell's, though not through it.
+struct Bridge
 {
   std::size_t cell; ///< place in the block's cells
   int face;
@@ -144,9 +151,9 @@ struct BlockPlace
   bool isOwn;
   std::int32_t firstVertex;
   std::size_t firstTriangle;
-  std::vector<JoinedFace> joined;   ///< at most one for a cell
-  std::vector<SharpVertex> sharp;   ///< in the order of their cells
-  std::vector<JoinedFace> bridges;  ///< over which sharp vertices are joined, though not through it
+  std::vector<JoinedFaces> joined; ///< in the order of their cells
+  std::vector<SharpVertex> sharp;  ///< in the order of their cells
+  std::vector<Bridge> bridges;
   std::vector<SharpOffer> offers;   ///< to any block's cells
   std::vector<SharpOffer> received; ///< to the block's cells
   std::vector<std::int32_t> vertex; ///< of another piece's block: place in the mesh, or -1
@@ -395,10 +402,10 @@ private:
         // A fan about a vertex of its own has two triangles more.
         this->Vertices += place.NumberOfVertices();
         this->Triangles += place.block->NumberOfTriangles() + 2 * place.sharp.size();
-        for (const JoinedFace& joined : place.joined)
+        for (const JoinedFaces& joined : place.joined)
         {
           const int matter = place.block->cases[joined.cell];
-          this->Triangles += CubeCases::Get().NumberOfTriangles(matter, joined.face) -
+          this->Triangles += CubeCases::Get().NumberOfTriangles(matter, joined.faces) -
             CubeCases::Get().NumberOfTriangles(matter);
         }
       }
@@ -459,36 +466,63 @@ private:
   /// it there; the field knows better. Both cells of a face come to the same answer.
   void JoinFaces(BlockPlace& place) const
   {
-    const CubeCases& cases = CubeCases::Get();
     const ContourBlock& block = *place.block;
+    FieldScope scope;
     for (std::size_t c = 0; c < block.cells.size(); ++c)
     {
-      const int face = cases.OnlyJoinableFace(block.cases[c]);
-      if (face < 0)
+      if (CubeCases::AmbiguousFaces(block.cases[c]) == 0)
       {
         continue;
       }
-      LatticeIndex low = this->LatticeCell(block, c), beside = low;
-      beside[face >> 1] += (face & 1) ? 1 : -1;
-      low[face >> 1] += face & 1;
-      Vector3d middle = this->Lattice.Point(low[0], low[1], low[2]);
-      middle += 0.5 * this->Lattice.spacing * (Vector3d::Ones() - Vector3d::Unit(face >> 1));
-      if (cases.OnlyJoinableFace(this->CaseOf(beside)) == (face ^ 1) &&
-        !this->Field.IsFree(middle, this->ScopeAround(block)))
+      scope = scope.views.empty() && scope.planes.empty() ? this->ScopeAround(block) : scope;
+      const LatticeIndex cell = this->LatticeCell(block, c);
+      const int wanted = this->FacesToJoin(cell, block.cases[c], scope);
+      int joined = 0;
+      for (int face = 0; face < 6; ++face)
       {
-        place.joined.push_back({ c, face });
+        if (wanted >> face & 1)
+        {
+          LatticeIndex beside = cell;
+          beside[face >> 1] += (face & 1) ? 1 : -1;
+          const int others = this->FacesToJoin(beside, this->CaseOf(beside), scope);
+          joined |= (others >> (face ^ 1) & 1) << face;
+        }
+      }
+      if (joined != 0)
+      {
+        place.joined.push_back({ c, joined });
       }
     }
   }
 
+  /// The ambiguous faces of a cell in whose middles is matter, if they can be joined.
+  int FacesToJoin(const LatticeIndex& cell, int matter, const FieldScope& scope) const
+  {
+    int faces = CubeCases::AmbiguousFaces(matter);
+    for (int face = 0; face < 6; ++face)
+    {
+      if (faces >> face & 1)
+      {
+        LatticeIndex low = cell;
+        low[face >> 1] += face & 1;
+        Vector3d middle = this->Lattice.Point(low[0], low[1], low[2]);
+        middle += 0.5 * this->Lattice.spacing * (Vector3d::Ones() - Vector3d::Unit(face >> 1));
+        faces ^= this->Field.IsFree(middle, scope) << face;
+      }
+    }
+    return CubeCases::Get().CanJoin(matter, faces) ? faces : 0;
+  }
+
+  static int JoinedFacesOf(const BlockPlace& place, std::size_t c)
+  {
+    const auto joined = std::lower_bound(place.joined.begin(), place.joined.end(), c,
+      [](const JoinedFaces& a, std::size_t cell) { return a.cell < cell; });
+    return joined != place.joined.end() && joined->cell == c ? joined->faces : 0;
+  }
+
   static const std::vector<CubeCases::Loop>& LoopsOf(const BlockPlace& place, std::size_t c)
   {
-    int face = CubeCases::NoFace;
-    for (const JoinedFace& joined : place.joined)
-    {
-      face = joined.cell == c ? joined.face : face;
-    }
-    return CubeCases::Get().Loops(place.block->cases[c], face);
+    return CubeCases::Get().Loops(place.block->cases[c], JoinedFacesOf(place, c));
   }
 
   /// Where cells found the same corner beyond themselves, leaves it to the one that needs no planes of
@@ -524,51 +558,6 @@ private:
           other.reach = other.edgeReach;
           other.isCorner = false;
         }
-      }
-    }
-  }
-
-  /// Gives the block's cells that have a sharp edge or corner a vertex there.
-  void FindSharpVertices(BlockPlace& place) const
-  {
-    const ContourBlock& block = *place.block;
-    FieldScope scope;
-    CrossingGrid grid;
-    for (std::size_t c = 0; c < block.cells.size(); ++c)
-    {
-      const auto& loops = LoopsOf(place, c);
-      if (loops.size() != 1)
-      {
-        continue;
-      }
-      if (grid.crossings.empty())
-      {
-        this->FillGrid(place, grid);
-      }
-      std::vector<SurfacePlane> planes, around;
-      for (int edge : loops[0])
-      {
-        grid.Add(FirstPoint(CellOf(block.cells[c]), edge), edge >> 2, planes);
-      }
-      if (planes.size() != loops[0].size() || !NormalsDiffer(planes, this->HalfSharpCosine))
-      {
-        continue; // most cells
-      }
-      grid.AddAround(CellOf(block.cells[c]), around);
-      SmoothNormals(planes, around, SmoothingRadius * this->Lattice.spacing);
-      SharpFeature own;
-      if (!FindSharpFeature(planes, this->SharpCosine, own))
-      {
-        continue;
-      }
-      const LatticeIndex cell = this->LatticeCell(block, c);
-      scope = scope.views.empty() && scope.planes.empty() ? this->ScopeAround(block) : scope;
-      std::vector<SharpFeature> features = this->CornersNearby(cell, own);
-      features.push_back(own);
-      this->AddSharpVertex(place, c, features, planes, scope, true);
-      for (const SharpFeature& feature : features)
-      {
-        this->Offer(cell, feature, place.offers);
       }
     }
   }
@@ -614,6 +603,69 @@ private:
       }
     }
   };
+
+  /// Gives the block's cells that have a sharp edge or corner a vertex there.
+  void FindSharpVertices(BlockPlace& place) const
+  {
+    FieldScope scope;
+    CrossingGrid grid;
+    for (std::size_t c = 0; c < place.block->cells.size(); ++c)
+    {
+      const std::size_t before = place.sharp.size();
+      this->FindSharpVertex(place, c, grid, scope);
+      if (place.sharp.size() == before &&
+        CubeCases::Get().NeedsMiddle(place.block->cases[c], JoinedFacesOf(place, c)))
+      {
+        const LatticeIndex cell = this->LatticeCell(*place.block, c);
+        std::vector<SurfacePlane> planes;
+        const Vector3d middle = this->CollectPlanes(cell, planes)
+          ? Clamp(MiddleOf(planes), this->CellBox(cell, -SharpClearance))
+          : Vector3d(this->CellBox(cell, 0.0).center());
+        place.sharp.push_back({ c, middle, middle, middle, Reach::Own, false, false, Reach::Own });
+      }
+    }
+  }
+
+  /// The same for one cell. The grid and the scope are the block's, made when they are first needed.
+  void FindSharpVertex(
+    BlockPlace& place, std::size_t c, CrossingGrid& grid, FieldScope& scope) const
+  {
+    const ContourBlock& block = *place.block;
+    const auto& loops = LoopsOf(place, c);
+    if (loops.size() != 1)
+    {
+      return;
+    }
+    if (grid.crossings.empty())
+    {
+      this->FillGrid(place, grid);
+    }
+    std::vector<SurfacePlane> planes, around;
+    for (int edge : loops[0])
+    {
+      grid.Add(FirstPoint(CellOf(block.cells[c]), edge), edge >> 2, planes);
+    }
+    if (planes.size() != loops[0].size() || !NormalsDiffer(planes, this->HalfSharpCosine))
+    {
+      return; // most cells
+    }
+    grid.AddAround(CellOf(block.cells[c]), around);
+    SmoothNormals(planes, around, SmoothingRadius * this->Lattice.spacing);
+    SharpFeature own;
+    if (!FindSharpFeature(planes, this->SharpCosine, own))
+    {
+      return;
+    }
+    const LatticeIndex cell = this->LatticeCell(block, c);
+    scope = scope.views.empty() && scope.planes.empty() ? this->ScopeAround(block) : scope;
+    std::vector<SharpFeature> features = this->CornersNearby(cell, own);
+    features.push_back(own);
+    this->AddSharpVertex(place, c, features, planes, scope, true);
+    for (const SharpFeature& feature : features)
+    {
+      this->Offer(cell, feature, place.offers);
+    }
+  }
 
   void FillGrid(const BlockPlace& place, CrossingGrid& grid) const
   {
@@ -1159,7 +1211,7 @@ private:
     {
       const SharpVertex& other = SharpOf(sharpFace.other);
       const bool isBridged = std::any_of(place.bridges.begin(), place.bridges.end(),
-        [&](const JoinedFace& bridge) { return bridge.cell == own.cell && bridge.face == face; });
+        [&](const Bridge& bridge) { return bridge.cell == own.cell && bridge.face == face; });
       const bool areOwn = own.reach == Reach::Own && other.reach == Reach::Own;
       if (isBridged || (areOwn && this->IsThroughFace(own.position, other.position, sharpFace)))
       {

@@ -57,7 +57,7 @@ bool ShareFace(const std::array<Face, 6>& faces, int edgeA, int edgeB)
 
 // For each crossed edge the one that a loop goes on to: around each face, from where matter is
 // entered to where that run of matter is left; around a joined face, to where the run before is left.
-std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter, int joinedFace)
+std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter, int joinedFaces)
 {
   std::array<int, 12> next;
   next.fill(-1);
@@ -69,7 +69,7 @@ std::array<int, 12> Successors(const std::array<Face, 6>& faces, int matter, int
     {
       if (!isMatter(i) && isMatter(i + 1))
       {
-        int j = f == joinedFace ? i + 3 : i + 1;
+        int j = (joinedFaces >> f & 1) != 0 ? i + 3 : i + 1;
         while (isMatter(j + 1))
         {
           ++j;
@@ -138,31 +138,27 @@ CubeCases::CubeCases()
 {
   for (int matter = 0; matter < 256; ++matter)
   {
-    int ambiguous = 0;
-    this->Joinable[matter] = NoFace;
-    this->MakeLoops(matter, NoFace);
-    for (int face = 0; face < 6; ++face)
+    const int ambiguous = AmbiguousFaces(matter);
+    std::vector<Case>& cases = this->Cases[matter];
+    for (int faces = 0; faces <= ambiguous; ++faces)
     {
-      this->Triangles[matter][1 + face] = 0;
-      if (IsAmbiguous(matter, face))
+      const bool areAmbiguous = (faces & ~ambiguous) == 0;
+      cases.push_back(areAmbiguous ? MakeCase(matter, faces) : Case());
+      // Some of the faces are not joined when the cubes beyond them refuse.
+      for (int face = 0; face < 6 && cases.back().canJoin; ++face)
       {
-        ++ambiguous;
-        this->MakeLoops(matter, face);
-        this->Joinable[matter] = this->CanJoin(matter, face) ? face : this->Joinable[matter];
+        cases.back().canJoin = (faces >> face & 1) == 0 || cases[faces & ~(1 << face)].canJoin;
       }
     }
-    this->Joinable[matter] = ambiguous == 1 ? this->Joinable[matter] : NoFace;
   }
 }
 
-void CubeCases::MakeLoops(int matter, int joinedFace)
+CubeCases::Case CubeCases::MakeCase(int matter, int joinedFaces)
 {
   static const std::array<Face, 6> faces = MakeFaces();
-  std::array<int, 12> next = Successors(faces, matter, joinedFace);
-  std::vector<Loop>& loops = this->Cases[matter][1 + joinedFace];
-  int& triangles = this->Triangles[matter][1 + joinedFace];
-  bool isSafe = true;
-  triangles = 0;
+  std::array<int, 12> next = Successors(faces, matter, joinedFaces);
+  Case made;
+  bool haveFans = true, areApart = true;
   for (int edge = 0; edge < 12; ++edge)
   {
     Loop loop;
@@ -173,18 +169,17 @@ void CubeCases::MakeLoops(int matter, int joinedFace)
     }
     if (!loop.empty())
     {
-      isSafe = BringApexToFront(faces, loop) && isSafe;
-      isSafe = isSafe &&
-        std::all_of(loops.begin(), loops.end(),
+      haveFans = BringApexToFront(faces, loop) && haveFans;
+      areApart = areApart &&
+        std::all_of(made.loops.begin(), made.loops.end(),
           [&](const Loop& other) { return ArePartedByAPlane(loop, other); });
-      triangles += static_cast<int>(loop.size()) - 2;
-      loops.push_back(std::move(loop));
+      made.triangles += static_cast<int>(loop.size()) - 2;
+      made.loops.push_back(std::move(loop));
     }
   }
-  if (joinedFace != NoFace && !isSafe)
-  {
-    loops.clear();
-  }
+  made.needsMiddle = !haveFans && made.loops.size() == 1;
+  made.canJoin = (haveFans && areApart) || made.needsMiddle;
+  return made;
 }
 
 int CubeCases::CommonFace(int edgeA, int edgeB)
@@ -207,6 +202,16 @@ bool CubeCases::IsAmbiguous(int matterCorners, int face)
   const auto matter = [&](int corner) { return matterCorners >> corner & 1; };
   return matter(base) == matter(base | u | v) && matter(base | u) == matter(base | v) &&
     matter(base) != matter(base | u);
+}
+
+int CubeCases::AmbiguousFaces(int matterCorners)
+{
+  int faces = 0;
+  for (int face = 0; face < 6; ++face)
+  {
+    faces |= IsAmbiguous(matterCorners, face) << face;
+  }
+  return faces;
 }
 
 const CubeCases& CubeCases::Get()

@@ -29,28 +29,34 @@ public:
 
   static const CubeCases& Get();
 
-  static constexpr int NoFace = -1;
-
-  /// The loops of a case; with a joined face (see CanJoin), the matter hangs together across it.
-  const std::vector<Loop>& Loops(int matterCorners, int joinedFace = NoFace) const
+  /// The loops of a case. Across joined faces (one bit for each, see CanJoin) the matter hangs together.
+  const std::vector<Loop>& Loops(int matterCorners, int joinedFaces = 0) const
   {
-    return this->Cases[matterCorners][1 + joinedFace];
+    return this->Cases[matterCorners][joinedFaces].loops;
   }
 
-  int NumberOfTriangles(int matterCorners, int joinedFace = NoFace) const
+  int NumberOfTriangles(int matterCorners, int joinedFaces = 0) const
   {
-    return this->Triangles[matterCorners][1 + joinedFace];
+    return this->Cases[matterCorners][joinedFaces].triangles;
   }
 
-  /// Whether a face is ambiguous and may be joined without the cube's triangles meeting, wherever its
-  /// vertices are. It must be joined in both of its cubes.
-  bool CanJoin(int matterCorners, int face) const
+  /// Whether all these faces are ambiguous and they, or any of them, may be joined without the cube's
+  /// triangles meeting, wherever its vertices are. A face must be joined in both of its cubes.
+  bool CanJoin(int matterCorners, int faces) const
   {
-    return !this->Cases[matterCorners][1 + face].empty();
+    return faces < static_cast<int>(this->Cases[matterCorners].size()) &&
+      this->Cases[matterCorners][faces].canJoin;
   }
 
-  /// The face that can be joined, where it is the cube's only ambiguous one; otherwise NoFace.
-  int OnlyJoinableFace(int matterCorners) const { return this->Joinable[matterCorners]; }
+  /// Whether with these faces joined there is one loop, about which no fan keeps off the faces but one
+  /// from a vertex inside of the cube.
+  bool NeedsMiddle(int matterCorners, int joinedFaces) const
+  {
+    return this->Cases[matterCorners][joinedFaces].needsMiddle;
+  }
+
+  /// The faces that two lines cross, one bit for each.
+  static int AmbiguousFaces(int matterCorners);
 
   /// The corner where an edge begins; it ends at Begin + (1 << edge / 4).
   static int Begin(int edge)
@@ -70,12 +76,17 @@ public:
   static bool IsAmbiguous(int matterCorners, int face);
 
 private:
+  struct Case
+  {
+    std::vector<Loop> loops;
+    int triangles = 0;
+    bool needsMiddle = false;
+    bool canJoin = false;
+  };
   CubeCases();
-  void MakeLoops(int matterCorners, int joinedFace);
+  static Case MakeCase(int matterCorners, int joinedFaces);
 
-  std::array<std::array<std::vector<Loop>, 7>, 256> Cases; ///< without and with each joined face
-  std::array<std::array<int, 7>, 256> Triangles;
-  std::array<int, 256> Joinable;
+  std::array<std::vector<Case>, 256> Cases; ///< by the joined faces
 };
 
 }

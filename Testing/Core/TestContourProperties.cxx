@@ -159,5 +159,11 @@ TEST(ContourOfNoise, NeverMeetsItself)
     ASSERT_GT(mesh.triangles.size(), 10000u);
     EXPECT_EQ(TopologyFaults(mesh), "");
     EXPECT_FALSE(MeetsItself(mesh));
+    // Without normals there are no sharp edges, but matter hangs together across many faces.
+    options.sharp = true;
+    const ContourMesh joined = BisectionContour(Noise(), bounds, options);
+    EXPECT_NE(joined.triangles, mesh.triangles);
+    EXPECT_EQ(TopologyFaults(joined), "");
+    EXPECT_FALSE(MeetsItself(joined));
   }
 }

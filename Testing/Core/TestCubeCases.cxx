@@ -20,17 +20,39 @@ Vector3d Corner(int c)
   return Vector3d(c & 1, c >> 1 & 1, c >> 2 & 1);
 }
 
-std::vector<Triangle> Triangles(int matter, int joinedFace = CubeCases::NoFace)
+// Beside the vertices on the twelve edges, one inside of the cube.
+constexpr int Middle = 12;
+
+std::vector<Triangle> Triangles(int matter, int joinedFaces = 0)
 {
   std::vector<Triangle> triangles;
-  for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, joinedFace))
+  const bool needsMiddle = CubeCases::Get().NeedsMiddle(matter, joinedFaces);
+  for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, joinedFaces))
   {
-    for (std::size_t i = 2; i < loop.size(); ++i)
+    for (std::size_t i = needsMiddle ? 0 : 2; i < loop.size(); ++i)
     {
-      triangles.push_back({ loop[0], loop[i - 1], loop[i] });
+      triangles.push_back(
+        { needsMiddle ? Middle : loop[0], loop[(i + loop.size() - 1) % loop.size()], loop[i] });
     }
   }
   return triangles;
+}
+
+// Calls visit(matter, joined faces) for all cases, without and with each set of faces that can be
+// joined.
+template <typename Visit>
+void ForEachCase(Visit&& visit)
+{
+  for (int matter = 0; matter < 256; ++matter)
+  {
+    for (int faces = 0; faces < 64; ++faces)
+    {
+      if (faces == 0 || CubeCases::Get().CanJoin(matter, faces))
+      {
+        visit(matter, faces);
+      }
+    }
+  }
 }
 
 bool OnOneFace(int edgeA, int edgeB)
@@ -44,6 +66,22 @@ bool OnOneFace(int edgeA, int edgeB)
     zeros &= ~c;
   }
   return (ones | zeros) != 0;
+}
+
+bool IsSideOfALoop(int a, int b, int matter, int joinedFaces)
+{
+  for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, joinedFaces))
+  {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+    {
+      const int from = loop[i], to = loop[(i + 1) % loop.size()];
+      if ((from == a && to == b) || (from == b && to == a))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 bool Crosses(const Vector3d& p, const Vector3d& q, const std::array<Vector3d, 3>& t)
@@ -66,7 +104,7 @@ bool Crosses(const Vector3d& p, const Vector3d& q, const std::array<Vector3d, 3>
 }
 
 // An edge of one triangle through the inside of another, shared corners aside.
-bool Meet(const Triangle& a, const Triangle& b, const std::array<Vector3d, 12>& at)
+bool Meet(const Triangle& a, const Triangle& b, const std::array<Vector3d, 13>& at)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -107,25 +145,20 @@ TEST(CubeCases, LoopsHoldEachCrossedEdgeOnce)
 
 TEST(CubeCases, JoinedFacesHangTogether)
 {
-  int joinable = 0;
-  for (int matter = 0; matter < 256; ++matter)
-  {
-    for (int face = 0; face < 6; ++face)
+  std::map<int, int> joinable; // by the number of faces
+  ForEachCase(
+    [&](int matter, int faces)
     {
-      if (!CubeCases::Get().CanJoin(matter, face))
-      {
-        continue;
-      }
-      ++joinable;
-      EXPECT_TRUE(CubeCases::IsAmbiguous(matter, face));
-      // The same crossings, but the lines over the face cut off its free corners.
+      ++joinable[__builtin_popcount(faces)];
+      EXPECT_EQ(faces & ~CubeCases::AmbiguousFaces(matter), 0);
+      // The same crossings, but the lines over the faces cut off their free corners.
       std::multiset<int> parted, joined;
       std::map<int, int> next;
       for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter))
       {
         parted.insert(loop.begin(), loop.end());
       }
-      for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, face))
+      for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, faces))
       {
         joined.insert(loop.begin(), loop.end());
         for (std::size_t i = 0; i < loop.size(); ++i)
@@ -134,38 +167,76 @@ TEST(CubeCases, JoinedFacesHangTogether)
         }
       }
       EXPECT_EQ(parted, joined);
-      int cutOff = 0;
+      std::map<int, int> freeCutOff, matterCutOff;
       for (const auto& [a, b] : next)
       {
-        if (CubeCases::CommonFace(a, b) == face)
+        const int face = CubeCases::CommonFace(a, b);
+        ASSERT_GE(face, 0);
+        const int ends[2] = { CubeCases::Begin(a), CubeCases::Begin(a) | 1 << (a >> 2) };
+        const int others[2] = { CubeCases::Begin(b), CubeCases::Begin(b) | 1 << (b >> 2) };
+        for (int corner : ends)
         {
-          const int ends[2] = { CubeCases::Begin(a), CubeCases::Begin(a) | 1 << (a >> 2) };
-          const int others[2] = { CubeCases::Begin(b), CubeCases::Begin(b) | 1 << (b >> 2) };
-          const int corner = ends[0] == others[0] || ends[0] == others[1] ? ends[0] : ends[1];
-          EXPECT_TRUE(corner == others[0] || corner == others[1]);
-          EXPECT_EQ(matter >> corner & 1, 0);
-          ++cutOff;
+          if (corner == others[0] || corner == others[1])
+          {
+            ++(matter >> corner & 1 ? matterCutOff : freeCutOff)[face];
+          }
         }
       }
-      EXPECT_EQ(cutOff, 2) << "case " << matter << " face " << face;
-    }
-  }
-  EXPECT_GE(joinable, 100);
+      for (int face = 0; face < 6; ++face)
+      {
+        if (CubeCases::IsAmbiguous(matter, face))
+        {
+          const bool isJoined = (faces >> face & 1) != 0;
+          EXPECT_EQ(freeCutOff[face], isJoined ? 2 : 0) << "case " << matter << " face " << face;
+          EXPECT_EQ(matterCutOff[face], isJoined ? 0 : 2) << "case " << matter << " face " << face;
+        }
+      }
+    });
+  EXPECT_GE(joinable[1], 150);
+  EXPECT_GE(joinable[2], 50);
+  EXPECT_GE(joinable[3], 8);
+}
+
+// A face stays parted where the cube beyond it refuses to join it.
+TEST(CubeCases, SomeOfTheFacesThatCanBeJoinedCanBeToo)
+{
+  ForEachCase(
+    [](int matter, int faces)
+    {
+      for (int some = faces; some > 0; some = (some - 1) & faces)
+      {
+        EXPECT_TRUE(CubeCases::Get().CanJoin(matter, some)) << matter << " " << some;
+      }
+    });
+}
+
+// The tip of a block pokes out between its three neighbours' corners: it hangs together over all three
+// faces.
+TEST(CubeCases, ATipIsJoinedOverThreeFaces)
+{
+  const int matter = 1 << 0 | 1 << 1 | 1 << 2 | 1 << 4 | 1 << 7, faces = 1 << 1 | 1 << 3 | 1 << 5;
+  EXPECT_EQ(CubeCases::AmbiguousFaces(matter), faces);
+  ASSERT_TRUE(CubeCases::Get().CanJoin(matter, faces));
+  EXPECT_EQ(CubeCases::Get().Loops(matter, faces).size(), 3u);
+  EXPECT_TRUE(CubeCases::Get().NeedsMiddle(matter, 1 << 5));
+  EXPECT_EQ(CubeCases::Get().Loops(matter, 1 << 5).size(), 1u);
 }
 
 TEST(CubeCases, NoDiagonalLiesOnAFace)
 {
-  for (int n = 0; n < 7 * 256; ++n)
-  {
-    const int matter = n / 7;
-    for (const CubeCases::Loop& loop : CubeCases::Get().Loops(matter, n % 7 - 1))
+  ForEachCase(
+    [](int matter, int faces)
     {
-      for (std::size_t i = 2; i + 1 < loop.size(); ++i)
+      for (const Triangle& triangle : Triangles(matter, faces))
       {
-        EXPECT_FALSE(OnOneFace(loop[0], loop[i])) << "case " << matter;
+        for (int i = 0; i < 3 && triangle[0] != Middle; ++i)
+        {
+          const int a = triangle[i], b = triangle[(i + 1) % 3];
+          const bool isSide = IsSideOfALoop(a, b, matter, faces);
+          EXPECT_TRUE(isSide || !OnOneFace(a, b)) << "case " << matter << " faces " << faces;
+        }
       }
-    }
-  }
+    });
 }
 
 TEST(CubeCases, NormalsPointOutOfTheMatter)
@@ -190,7 +261,8 @@ TEST(CubeCases, TrianglesNeverMeetWhereverTheVerticesAre)
   std::uniform_real_distribution<double> uniform(0.01, 0.99);
   for (int trial = 0; trial < 1000; ++trial)
   {
-    std::array<Vector3d, 12> at;
+    std::array<Vector3d, 13> at;
+    at[Middle] = Vector3d(uniform(random), uniform(random), uniform(random));
     for (int edge = 0; edge < 12; ++edge)
     {
       const int begin = CubeCases::Begin(edge), end = begin | 1 << (edge >> 2);
@@ -199,17 +271,17 @@ TEST(CubeCases, TrianglesNeverMeetWhereverTheVerticesAre)
       const double place = trial % 2 ? s : s < 0.5 ? 0.01 + 1e-4 * s : 0.99 - 1e-4 * s;
       at[edge] = (1 - place) * Corner(begin) + place * Corner(end);
     }
-    for (int n = 0; n < 7 * 256; ++n)
-    {
-      const int matter = n / 7, joinedFace = n % 7 - 1;
-      const std::vector<Triangle> triangles = Triangles(matter, joinedFace);
-      for (const Triangle& a : triangles)
+    ForEachCase(
+      [&](int matter, int faces)
       {
-        for (const Triangle& b : triangles)
+        const std::vector<Triangle> triangles = Triangles(matter, faces);
+        for (const Triangle& a : triangles)
         {
-          ASSERT_FALSE(&a != &b && Meet(a, b, at)) << "case " << matter << " face " << joinedFace;
+          for (const Triangle& b : triangles)
+          {
+            ASSERT_FALSE(&a != &b && Meet(a, b, at)) << "case " << matter << " faces " << faces;
+          }
         }
-      }
-    }
+      });
   }
 }
