@@ -9,11 +9,14 @@ namespace freespace
 struct EdgeCandidate
 {
   double disparity; ///< 1 / depth in the reference camera
-  double sigma;     ///< error of the disparity when the other edge is off by one pixel across
-  double shift;     ///< change of the disparity when the reference's token moves one pixel across
+  float sigma;      ///< error of the disparity when the other edge is off by one pixel across
+  float shift;      ///< change of the disparity when the reference's token moves one pixel across
   float cost;       ///< [0, 1)
   int image;
   int token;
+
+  /// What its disparity counts among others.
+  double Weight() const { return 1 / (static_cast<double>(this->sigma) * this->sigma); }
 };
 
 /// Candidates of different images that agree in their disparity: support [begin, begin + count) of
@@ -21,12 +24,13 @@ struct EdgeCandidate
 struct EdgeHypothesis
 {
   double disparity = 0;
-  double sigma = 0; ///< its error when the edges are off by one pixel across
-  double score = 0; ///< the lower the better, 0 for no match
+  float sigma = 0; ///< its error when the edges are off by one pixel across
+  float score = 0; ///< the lower the better, 0 for no match
   int begin = 0;
   int count = 0;
   bool promising = false; ///< a third image almost confirms it
 
+  double Weight() const { return 1 / (static_cast<double>(this->sigma) * this->sigma); }
   bool Empty() const { return this->count == 0; }
 
   /// By a third image.

@@ -64,7 +64,7 @@ private:
     for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
     {
       const EdgeCandidate& candidate = this->Support[k];
-      const double weight = 1 / (candidate.sigma * candidate.sigma);
+      const double weight = candidate.Weight();
       a += weight;
       b -= weight * candidate.shift;
       c += weight * candidate.shift * candidate.shift;
@@ -73,7 +73,7 @@ private:
     }
     const double determinant = a * c - b * b;
     hypothesis.disparity = (c * right - b * rightShift) / determinant;
-    hypothesis.sigma = std::sqrt(c / determinant);
+    hypothesis.sigma = static_cast<float>(std::sqrt(c / determinant));
   }
 
   // With the disparity given, the shift across the edge that fits all lines best.
@@ -83,7 +83,7 @@ private:
     for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
     {
       const EdgeCandidate& candidate = this->Support[k];
-      const double weight = candidate.shift / (candidate.sigma * candidate.sigma);
+      const double weight = candidate.shift * candidate.Weight();
       weights += weight * candidate.shift;
       sum += weight * (disparity - candidate.disparity);
     }
@@ -153,7 +153,7 @@ private:
     const auto add = [&](int j)
     {
       const EdgeHypothesis& hypothesis = this->Chosen[run[j]];
-      const double weight = 1 / (hypothesis.sigma * hypothesis.sigma);
+      const double weight = hypothesis.Weight();
       const double s = (j < k ? -1 : 1) * this->Step(run[k], run[j]);
       w += weight;
       ws += weight * s;

@@ -3,6 +3,7 @@
 #define freespace_SideColors_h
 
 #include "EdgeTokens.h"
+#include "VectorClones.h"
 
 #include <opencv2/core/hal/intrin.hpp>
 
@@ -50,6 +51,9 @@ public:
     }
     return difference;
   }
+
+  /// Before the token is compared.
+  void Prefetch(int token) const { FREESPACE_PREFETCH(&this->Sides[token]); }
 
 private:
   LargeVector<std::array<EdgeSide, 2>> Sides; // per token

@@ -9,6 +9,7 @@
 #include "MeetingBins.h"
 #include "RunSupport.h"
 #include "SideColors.h"
+#include "VectorClones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,13 @@ struct SearchImage
   {
   }
 
+  // What a candidate is compared by.
+  void Prefetch(int token) const
+  {
+    FREESPACE_PREFETCH(&this->index.PieceOf(token));
+    this->colors.Prefetch(token);
+  }
+
   EpipolarPair pair;
   EpipolarIndex index;
   SideColors colors;
@@ -49,7 +57,7 @@ struct EpipolarLine
 {
   EpipolarPair::Ray ray;
   Eigen::Vector2f tangent; // of the edge, rectified
-  Eigen::Vector2d across;  // way of the rectified pixel when the token moves one pixel across
+  Eigen::Vector2f across;  // way of the rectified pixel when the token moves one pixel across
   bool usable;             // in front of the camera, the edge not too near to parallel
 };
 
@@ -167,7 +175,8 @@ private:
       line.ray = rays.At(k);
       line.tangent =
         Eigen::Vector2f(static_cast<float>(rays.tangentU[k]), static_cast<float>(rays.tangentV[k]));
-      line.across = { rays.acrossU[k], rays.acrossV[k] };
+      line.across =
+        Eigen::Vector2f(static_cast<float>(rays.acrossU[k]), static_cast<float>(rays.acrossV[k]));
       line.usable = line.ray.scale > 0 && std::abs(line.tangent.y()) >= this->MinimumSine;
     }
   }
@@ -196,6 +205,10 @@ private:
     { return !this->Meetings.Meets(crossing.image, crossing.place, crossing.reach); };
     this->Crossings.erase(
       std::remove_if(this->Crossings.begin(), this->Crossings.end(), alone), this->Crossings.end());
+    for (const Crossing& crossing : this->Crossings)
+    {
+      this->Images[crossing.image].Prefetch(crossing.token);
+    }
     for (const Crossing& crossing : this->Crossings)
     {
       if (!this->IsCandidate(crossing.image, crossing.token))
@@ -239,9 +252,14 @@ private:
   // The edges that continue the support of a neighbour's hypotheses.
   void FollowCandidates(int token, const TokenStates& states)
   {
+    constexpr float margin = 1.0f; // what is worse by more than that is not chosen along the chain
     for (int s = states.begin; s < states.end; ++s)
     {
       const EdgeHypothesis& state = this->States[s];
+      if (state.score > this->States[states.begin].score + margin)
+      {
+        break; // the best come first
+      }
       for (int k = state.begin; k < state.begin + state.count && state.promising; ++k)
       {
         this->Follow(token, this->Scratch[k]);
@@ -293,8 +311,8 @@ private:
     const float cost = this->CompareTokens(token, search.colors, other, crossed, cosine);
     if (cost < 1)
     {
-      const double perColumn = line.ray.scale / search.pair.Baseline;
-      const double slope = piece.tangentU / piece.tangentV;
+      const float perColumn = static_cast<float>(line.ray.scale / search.pair.Baseline);
+      const float slope = piece.tangentU / piece.tangentV;
       this->Candidates.push_back({ search.pair.Disparity(line.ray, u),
         perColumn * piece.uncertainty / std::abs(piece.tangentV),
         perColumn * (line.across.x() - line.across.y() * slope), cost, image, other });
@@ -356,7 +374,7 @@ private:
     {
       if (const EdgeCandidate* candidate = this->Agreeing[image])
       {
-        const double weight = 1 / (candidate->sigma * candidate->sigma);
+        const double weight = candidate->Weight();
         weights += weight;
         hypothesis.disparity += weight * candidate->disparity;
         hypothesis.score += this->AgreeingCost[image] - 1;
@@ -365,9 +383,9 @@ private:
         ++hypothesis.count;
       }
     }
-    constexpr double unconfirmed = 0.3; // worth of a match in one image only
+    constexpr float unconfirmed = 0.3f; // worth of a match in one image only
     hypothesis.disparity /= weights;
-    hypothesis.sigma = 1 / std::sqrt(weights);
+    hypothesis.sigma = static_cast<float>(1 / std::sqrt(weights));
     hypothesis.score *= hypothesis.Confirmed() ? 1 : unconfirmed;
     this->Found.push_back(hypothesis);
   }
@@ -499,7 +517,7 @@ private:
       if (usual > 0)
       {
         const double off = std::abs(hypothesis.disparity - usual) * this->Baseline / scale;
-        hypothesis.score += weight * std::min(1.0, off);
+        hypothesis.score += static_cast<float>(weight * std::min(1.0, off));
       }
     }
   }

@@ -13,6 +13,14 @@
 #define FREESPACE_VECTOR_CLONES
 #endif
 
+/// FREESPACE_PREFETCH brings to the processor what is at an address, so that it is there when it is
+/// read soon after.
+#if defined(__GNUC__)
+#define FREESPACE_PREFETCH(address) __builtin_prefetch(address)
+#else
+#define FREESPACE_PREFETCH(address)
+#endif
+
 #if defined(__GNUC__)
 #define FREESPACE_INLINE inline __attribute__((always_inline))
 #else
