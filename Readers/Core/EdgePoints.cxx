@@ -370,10 +370,10 @@ private:
       [&](int x)
       {
         this->Edges.points.push_back(peaks.PointAt(x, y));
-        this->Edges.next.push_back(-1);
-        this->Edges.previous.push_back(-1);
         return static_cast<int>(this->Edges.points.size()) - 1;
       });
+    this->Edges.next.resize(this->Edges.points.size(), -1);
+    this->Edges.previous.resize(this->Edges.points.size(), -1);
   }
 
   void LinkPoints(int y)

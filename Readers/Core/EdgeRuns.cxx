@@ -145,21 +145,23 @@ private:
 
   // The disparity of a run's k-th token by a line through its neighbours: as many of them as make
   // it known to a good third of a pixel of the longest baseline.
-  double FitDisparity(const std::vector<int>& run, int k) const
+  double FitDisparity(int k) const
   {
     constexpr int leastRadius = 2, greatestRadius = 12;
     const double enough = std::pow(this->Baseline / 0.35, 2);
+    const std::vector<Sample>& samples = this->Samples;
+    const int last = static_cast<int>(samples.size()) - 1;
     double w = 0, ws = 0, wss = 0, wd = 0, wsd = 0;
     const auto add = [&](int j)
     {
-      const EdgeHypothesis& hypothesis = this->Chosen[run[j]];
-      const double weight = hypothesis.Weight();
-      const double s = (j < k ? -1 : 1) * this->Step(run[k], run[j]);
-      w += weight;
-      ws += weight * s;
-      wss += weight * s * s;
-      wd += weight * hypothesis.disparity;
-      wsd += weight * s * hypothesis.disparity;
+      const Sample& sample = samples[j];
+      const double distance = (sample.position - samples[k].position).norm();
+      const double s = j < k ? -distance : distance;
+      w += sample.weight;
+      ws += sample.weight * s;
+      wss += sample.weight * s * s;
+      wd += sample.weight * sample.disparity;
+      wsd += sample.weight * s * sample.disparity;
     };
     add(k);
     for (int radius = 1; radius <= greatestRadius && (radius <= leastRadius || w < enough);
@@ -169,7 +171,7 @@ private:
       {
         add(k - radius);
       }
-      if (k + radius < static_cast<int>(run.size()))
+      if (k + radius <= last)
       {
         add(k + radius);
       }
@@ -181,10 +183,17 @@ private:
   // The fitted disparities of a run and how far the edges are from where they predict them.
   void FitRun(const std::vector<int>& run)
   {
+    this->Samples.clear();
+    for (int i : run)
+    {
+      const EdgeHypothesis& hypothesis = this->Chosen[i];
+      this->Samples.push_back(
+        { this->Edges.tokens[i].position, hypothesis.disparity, hypothesis.Weight() });
+    }
     for (int k = 0; k < static_cast<int>(run.size()); ++k)
     {
       const EdgeHypothesis& hypothesis = this->Chosen[run[k]];
-      const double disparity = this->FitDisparity(run, k);
+      const double disparity = this->FitDisparity(k);
       double residual = std::abs(hypothesis.disparity - disparity) / hypothesis.sigma;
       for (int j = hypothesis.begin; j < hypothesis.begin + hypothesis.count; ++j)
       {
@@ -296,6 +305,14 @@ private:
   LargeVector<EdgeMatch> Matches;
   std::vector<double> Residual; // per token, pixels across the edge
   int NumberOfRuns = 0;
+
+  // What a line is fitted to: the tokens of the run at hand.
+  struct Sample
+  {
+    Eigen::Vector2d position;
+    double disparity, weight;
+  };
+  std::vector<Sample> Samples;
 };
 
 }

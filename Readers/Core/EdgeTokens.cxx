@@ -110,10 +110,11 @@ public:
       this->Y[k] += 0.5;
     }
     this->FindColors();
+    const std::size_t first = tokens.size();
+    tokens.resize(first + this->Size);
     for (int k = 0; k < this->Size; ++k)
     {
-      tokens.emplace_back();
-      EdgeToken& token = tokens.back();
+      EdgeToken& token = tokens[first + k];
       token.position = { this->X[k], this->Y[k] };
       token.tangent = { this->TangentX[k], this->TangentY[k] };
       token.contrast = this->Points[chain[k]].contrast;
@@ -216,9 +217,13 @@ private:
   // Four bytes at once; the one after the colour is there, see BlurredColors.
   EdgeColor ColorAt(int offset) const
   {
+    constexpr EdgeColor channels{ 255, 255, 255, 0 };
+    std::uint32_t four, mask;
+    std::memcpy(&four, this->Colors.bytes.data() + offset, sizeof four);
+    std::memcpy(&mask, channels.data(), sizeof mask);
+    four &= mask;
     EdgeColor color;
-    std::memcpy(color.data(), this->Colors.bytes.data() + offset, color.size());
-    color[3] = 0;
+    std::memcpy(color.data(), &four, color.size());
     return color;
   }
 
