@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 namespace freespace
 {
@@ -368,10 +369,6 @@ BoxContent FreespaceUnion::ClassifyFinely(const Eigen::AlignedBox3d& box, FieldS
 bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
   double& place, SurfaceLabel& label) const
 {
-  if (this->Options.minimumViews > 1)
-  {
-    return false;
-  }
   place = 2.0;
   for (int plane : scope.planes)
   {
@@ -383,22 +380,67 @@ bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, cons
       label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
     }
   }
-  int opener = -1;
-  thread_local ViewFreespace::Intervals intervals;
-  for (int view : scope.views)
-  {
-    this->Views[view]->FreeIntervals(matter, free, intervals);
-    if (!intervals.empty() && intervals.front().first < place)
-    {
-      place = intervals.front().first;
-      opener = view;
-    }
-  }
+  const int opener = this->FirstAgreement(matter, free, scope, place);
   if (opener >= 0)
   {
     label = this->LabelOfView(opener, matter + place * (free - matter), free - matter);
   }
   return place >= 0 && place <= 1;
+}
+
+// Where, before a place on a segment, enough views agree for the first time that it is free; and the
+// view that is the last to agree. -1: nowhere.
+int FreespaceUnion::FirstAgreement(
+  const Vector3d& matter, const Vector3d& free, const FieldScope& scope, double& place) const
+{
+  // A view begins (1) or ends (-1) to be free. Where one ends and another begins they do not agree.
+  struct Change
+  {
+    double place;
+    int step, view;
+    bool operator<(const Change& other) const
+    {
+      return std::tie(place, step, view) < std::tie(other.place, other.step, other.view);
+    }
+  };
+  thread_local ViewFreespace::Intervals intervals;
+  thread_local std::vector<Change> changes;
+  changes.clear();
+  int opener = -1;
+  for (int view : scope.views)
+  {
+    this->Views[view]->FreeIntervals(matter, free, intervals);
+    if (this->Options.minimumViews == 1)
+    {
+      if (!intervals.empty() && intervals.front().first < place)
+      {
+        place = intervals.front().first;
+        opener = view;
+      }
+      continue;
+    }
+    for (const auto& [begin, end] : intervals)
+    {
+      if (begin >= place)
+      {
+        break;
+      }
+      changes.push_back({ begin, 1, view });
+      changes.push_back({ end, -1, view });
+    }
+  }
+  std::sort(changes.begin(), changes.end());
+  int agreeing = scope.freeViews;
+  for (const Change& change : changes)
+  {
+    agreeing += change.step;
+    if (change.step > 0 && agreeing >= this->Options.minimumViews && change.place < place)
+    {
+      place = change.place;
+      return change.view;
+    }
+  }
+  return opener;
 }
 
 // What the surface is where a view begins to be free, on the way from matter.

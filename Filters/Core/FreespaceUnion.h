@@ -95,6 +95,8 @@ private:
     Eigen::Vector3d gradient;
   };
   bool CanOpen(const FieldScope& scope) const;
+  int FirstAgreement(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+    const FieldScope& scope, double& place) const;
   SurfaceLabel LabelOfView(
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;

@@ -158,9 +158,13 @@ TEST(BisectionContour, UnionByBoxesIsTheSameAsByPoints)
 
 TEST(BisectionContour, ExactCrossingsAreWhereBisectionFindsThem)
 {
-  for (unsigned int seed = 0; seed < 10; ++seed)
+  for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 5), {});
+    // Also where two or three views have to agree.
+    FreespaceUnionOptions unionOptions;
+    const int views = 1 + seed % 5;
+    unionOptions.minimumViews = seed < 10 ? 1 : std::min(views, 2 + static_cast<int>(seed % 2));
+    const FreespaceUnion phi(RandomMaps(seed, views), unionOptions);
     ContourOptions options = Cells(30);
     const ContourMesh exact = BisectionContour(phi, phi.Hull().Bounds(), options);
     options.exact = false;

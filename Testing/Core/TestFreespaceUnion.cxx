@@ -284,6 +284,48 @@ TEST(FreespaceUnion, BoxesAgreeWithTheirPoints)
   EXPECT_GT(decided, 800);
 }
 
+// From the matter's end of a segment all is matter up to the crossing, and just beyond it is free.
+TEST(FreespaceUnion, CrossingsAreTheFirstPlacesThatEnoughViewsSeeFree)
+{
+  int found = 0, byHull = 0;
+  for (unsigned int seed = 0; seed < 40; ++seed)
+  {
+    const int views = 1 + seed % 6, minimumViews = 1 + seed / 6 % std::min(views, 4);
+    const FreespaceUnion phi(RandomMaps(seed, views), Options(minimumViews, seed % 2 ? 0.1 : 0.0));
+    const FieldScope scope = phi.Root();
+    const Eigen::AlignedBox3d box = phi.Hull().Bounds();
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    const auto place = [&]
+    {
+      const Vector3d share(uniform(random), uniform(random), uniform(random));
+      return Vector3d(box.min() + share.cwiseProduct(box.sizes()));
+    };
+    for (int i = 0; i < 300; ++i)
+    {
+      const Vector3d matter = place(), free = matter + (i % 2 ? 1.0 : 0.05) * (place() - matter);
+      double crossing;
+      SurfaceLabel label;
+      if (phi.IsFree(matter) || !phi.IsFree(free))
+      {
+        continue;
+      }
+      const auto at = [&](double s) { return Vector3d(matter + s * (free - matter)); };
+      ASSERT_TRUE(phi.Crossing(matter, free, scope, crossing, label));
+      ++found;
+      byHull += label.view < 0;
+      EXPECT_FALSE(phi.IsFree(at(crossing - 1e-7))) << seed << " " << i;
+      EXPECT_TRUE(phi.IsFree(at(std::min(1.0, crossing + 1e-7)))) << seed << " " << i;
+      for (int j = 0; j < 200; ++j)
+      {
+        ASSERT_FALSE(phi.IsFree(at((crossing - 1e-7) * j / 200))) << seed << " " << i;
+      }
+    }
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_LT(byHull, found / 2);
+}
+
 TEST(ViewFreespace, IntervalsOfSegmentsAgreeWithTheirPoints)
 {
   for (unsigned int seed = 0; seed < 30; ++seed)
