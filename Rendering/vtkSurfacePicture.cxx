@@ -5,6 +5,7 @@
 #include "CameraForVTK.h"
 #include "Error.h"
 #include "FramePoints.h"
+#include "PngBytes.h"
 #include "SurfaceViewpoint.h"
 #include "ViewBlocks.h"
 
@@ -12,7 +13,6 @@
 #include <vtkCamera.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -21,7 +21,6 @@
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -352,14 +351,8 @@ int vtkSurfacePicture::WritePNG(const std::string& fileName)
   try
   {
     freespace::AtomicOutput target(fileName);
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(picture);
-    writer->SetFileName(target.Path().c_str());
-    writer->Write();
-    if (writer->GetErrorCode() != vtkErrorCode::NoError)
-    {
-      throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
-    }
+    const auto bytes = freespace::PngBytes(picture);
+    target.Write(bytes->GetPointer(0), bytes->GetNumberOfValues());
     target.Commit();
     return 1;
   }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BinaryGLTF.h"
 
+#include "AtomicOutput.h"
 #include "Error.h"
+#include "PngBytes.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 
 // The PNG is VTK's: tinygltf needs no image library.
 #define TINYGLTF_NO_STB_IMAGE
@@ -115,11 +114,7 @@ int AddIndices(tinygltf::Model& model, vtkCellArray* triangles)
 
 int AddMaterial(tinygltf::Model& model, vtkImageData* texture)
 {
-  vtkNew<vtkPNGWriter> png;
-  png->SetInputData(texture);
-  png->WriteToMemoryOn();
-  png->Write();
-  vtkUnsignedCharArray* bytes = png->GetResult();
+  const auto bytes = PngBytes(texture);
   if (!bytes || bytes->GetNumberOfValues() == 0)
   {
     throw Error("The texture cannot be written as PNG.");
@@ -155,7 +150,7 @@ int AddMaterial(tinygltf::Model& model, vtkImageData* texture)
 }
 
 void WriteBinaryGLTF(
-  vtkPolyData* surface, vtkImageData* texture, bool zUp, const std::string& fileName)
+  vtkPolyData* surface, vtkImageData* texture, bool zUp, const AtomicOutput& target)
 {
   tinygltf::Model model;
   model.asset.version = "2.0";
@@ -200,9 +195,9 @@ void WriteBinaryGLTF(
   model.scenes.push_back(scene);
   model.defaultScene = 0;
   tinygltf::TinyGLTF writer;
-  if (!writer.WriteGltfSceneToFile(&model, fileName, true, true, false, true))
+  if (!writer.WriteGltfSceneToFile(&model, target.Path(), true, true, false, true))
   {
-    throw Error("Cannot write " + fileName + ": the disk is full or failed.");
+    throw target.Failure();
   }
 }
 

@@ -4,9 +4,9 @@
 #include "AlgorithmProgress.h"
 #include "FeatureOverlay.h"
 #include "ViewBlocks.h"
+#include "WriteOrTell.h"
 
 #include <vtkCellArray.h>
-#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -53,30 +53,21 @@ int vtkFeatureOverlayWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkFeatureOverlayWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
-  try
-  {
-    const freespace::Progress progress = freespace::AlgorithmProgress(this);
-    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
-    const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
-    MakeFolder(this->OutputFolder);
-    for (std::size_t i = 0; i < views.size(); ++i)
+  this->SetErrorCode(freespace::WriteOrTell(this,
+    [&]
     {
-      progress(static_cast<double>(i) / views.size());
-      auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(static_cast<unsigned int>(i)));
-      freespace::WriteFeatureOverlay(views[i], ChainsOf(block), this->ImagesFolder,
-        (std::filesystem::path(this->OutputFolder) / (views[i].name + ".png")).string());
-    }
-  }
-  catch (const freespace::Aborted&)
-  {
-    this->SetErrorCode(vtkErrorCode::UserError);
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+      const freespace::Progress progress = freespace::AlgorithmProgress(this);
+      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
+      MakeFolder(this->OutputFolder);
+      for (std::size_t i = 0; i < views.size(); ++i)
+      {
+        progress(static_cast<double>(i) / views.size());
+        auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(static_cast<unsigned int>(i)));
+        freespace::WriteFeatureOverlay(views[i], ChainsOf(block), this->ImagesFolder,
+          (std::filesystem::path(this->OutputFolder) / (views[i].name + ".png")).string());
+      }
+    }));
 }
 
 void vtkFeatureOverlayWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -5,13 +5,14 @@
 #include "AtomicOutput.h"
 #include "DisparityImage.h"
 #include "Error.h"
+#include "FileEnding.h"
 #include "FreespaceUnion.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
 #include "WatchedFor.h"
+#include "WriteOrTell.h"
 #include "vtkFreespaceUnion.h"
 
-#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -22,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 vtkStandardNewMacro(vtkOccupancyMapWriter);
@@ -103,8 +103,8 @@ struct Lattice
       cells *= high - low + 1;
       if (!(low >= -32768 && high < 32768 && cells <= 1e9))
       {
-        throw Error("a resolution of " + std::to_string(this->side) +
-          " asks for more cells than an OctoMap can hold around its origin, or a billion");
+        throw Error("A resolution of " + std::to_string(this->side) +
+          " asks for more cells than an OctoMap can hold around its origin, or a billion.");
       }
       this->first[axis] = static_cast<std::int64_t>(low);
       this->count[axis] = static_cast<std::int64_t>(high - low) + 1;
@@ -219,17 +219,25 @@ private:
 };
 
 void WriteTree(
-  const octomap::OcTree& tree, const std::string& fileName, bool isBinary, const Progress& progress)
+  const octomap::OcTree& tree, const AtomicOutput& target, bool isBinary, const Progress& progress)
 {
   constexpr double bytesPerNode = 5.0, bytesPerBinaryNode = 2.0; // at most
   WatchedFile file(
-    fileName, (isBinary ? bytesPerBinaryNode : bytesPerNode) * (1.0 + tree.size()), progress);
+    target.Path(), (isBinary ? bytesPerBinaryNode : bytesPerNode) * (1.0 + tree.size()), progress);
   std::ostream stream(&file);
   stream.exceptions(std::ios::badbit); // lets the wish to stop through
-  const bool written = isBinary ? tree.writeBinaryConst(stream) : tree.write(stream);
+  bool written = false;
+  try
+  {
+    written = isBinary ? tree.writeBinaryConst(stream) : tree.write(stream);
+  }
+  catch (const std::ios::failure&)
+  {
+    // Told below.
+  }
   if (!written || !file.close())
   {
-    throw Error("the disk is full or failed");
+    throw target.Failure();
   }
   progress(1.0);
 }
@@ -247,55 +255,45 @@ int vtkOccupancyMapWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkOccupancyMapWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
-  try
-  {
-    const std::string ending = std::filesystem::path(this->FileName).extension().string();
-    if (ending != ".bt" && ending != ".ot")
+  this->SetErrorCode(WriteOrTell(this,
+    [&]
     {
-      throw Error("an OctoMap's file name ends in .bt or .ot");
-    }
-    AtomicOutput target(this->FileName);
-    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
-    const freespace::Progress progress = AlgorithmProgress(this);
-    vtkNew<vtkFreespaceUnion> phi;
-    phi->SetMaps(blocks);
-    phi->SetHullMargin(this->HullMargin);
-    phi->SetMinimumViews(this->MinimumViews);
-    const auto core = phi->GetCore(progress.Part(0.0, Built));
-    double bounds[6];
-    phi->GetBounds(bounds);
-    if (!core || bounds[0] > bounds[1])
-    {
-      throw Error("the disparity maps have no features");
-    }
-    const Lattice lattice(bounds, this->Resolution);
-    octomap::OcTree tree(lattice.side);
-    const LookedAt lookedAt(MapsFromBlocks(blocks), progress.Part(Built, Rendered));
-    core->IndexForPoints(progress.Part(Rendered, Indexed));
-    FillTree(lattice, *core, lookedAt, progress.Part(Indexed, Filled), tree);
-    Watched(progress.Part(Filled, Pruned),
-      [&](const StopFlag& stop)
+      const std::string ending = LowerCaseEnding(this->FileName);
+      if (ending != ".bt" && ending != ".ot")
       {
-        if (tree.getRoot())
+        throw Error(
+          "Cannot write '" + this->FileName + "': an OctoMap's file name ends in .bt or .ot.");
+      }
+      AtomicOutput target(this->FileName);
+      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      const freespace::Progress progress = AlgorithmProgress(this);
+      vtkNew<vtkFreespaceUnion> phi;
+      phi->SetMaps(blocks);
+      phi->SetHullMargin(this->HullMargin);
+      phi->SetMinimumViews(this->MinimumViews);
+      const auto core = phi->GetCore(progress.Part(0.0, Built));
+      double bounds[6];
+      phi->GetBounds(bounds);
+      if (!core || bounds[0] > bounds[1])
+      {
+        throw Error("Cannot write " + this->FileName + ": the disparity maps have no features.");
+      }
+      const Lattice lattice(bounds, this->Resolution);
+      octomap::OcTree tree(lattice.side);
+      const LookedAt lookedAt(MapsFromBlocks(blocks), progress.Part(Built, Rendered));
+      core->IndexForPoints(progress.Part(Rendered, Indexed));
+      FillTree(lattice, *core, lookedAt, progress.Part(Indexed, Filled), tree);
+      Watched(progress.Part(Filled, Pruned),
+        [&](const StopFlag& stop)
         {
-          Prune(tree, tree.getRoot(), stop);
-        }
-      });
-    WriteTree(tree, target.Path(), ending == ".bt", progress.Part(Pruned, 1.0));
-    target.Commit();
-  }
-  catch (const Aborted&)
-  {
-    this->SetErrorCode(vtkErrorCode::UserError);
-  }
-  catch (const std::exception& error)
-  {
-    const std::string fault = error.what();
-    const bool isWhole = fault.rfind("Cannot write ", 0) == 0;
-    vtkErrorMacro(<< (isWhole ? fault : "Cannot write '" + this->FileName + "': " + fault));
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+          if (tree.getRoot())
+          {
+            Prune(tree, tree.getRoot(), stop);
+          }
+        });
+      WriteTree(tree, target, ending == ".bt", progress.Part(Pruned, 1.0));
+      target.Commit();
+    }));
 }
 
 void vtkOccupancyMapWriter::PrintSelf(ostream& os, vtkIndent indent)

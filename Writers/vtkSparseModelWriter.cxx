@@ -4,8 +4,8 @@
 #include "ColmapModel.h"
 #include "Error.h"
 #include "SparseModelBlocks.h"
+#include "WriteOrTell.h"
 
-#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -20,19 +20,14 @@ int vtkSparseModelWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkSparseModelWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
-  try
-  {
-    const freespace::SparseModel model =
-      freespace::ModelFromBlocks(vtkMultiBlockDataSet::SafeDownCast(this->GetInput()));
-    freespace::WriteColmapModel(model, this->FileName,
-      this->Binary ? freespace::ColmapFormat::Binary : freespace::ColmapFormat::Text);
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+  this->SetErrorCode(freespace::WriteOrTell(this,
+    [&]
+    {
+      const freespace::SparseModel model =
+        freespace::ModelFromBlocks(vtkMultiBlockDataSet::SafeDownCast(this->GetInput()));
+      freespace::WriteColmapModel(model, this->FileName,
+        this->Binary ? freespace::ColmapFormat::Binary : freespace::ColmapFormat::Text);
+    }));
 }
 
 void vtkSparseModelWriter::PrintSelf(ostream& os, vtkIndent indent)

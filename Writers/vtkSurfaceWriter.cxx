@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "FileEnding.h"
 #include "SurfaceViewpoint.h"
+#include "WriteOrTell.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -24,17 +25,14 @@ namespace
 {
 
 template <typename Writer>
-void WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName)
+bool WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName)
 {
   writer->SetInputDataObject(surface);
   writer->SetFileName(fileName.c_str());
-  if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
-  {
-    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
-  }
+  return writer->Write() && writer->GetErrorCode() == vtkErrorCode::NoError;
 }
 
-void WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName)
+bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName)
 {
   if (ending == ".ply")
   {
@@ -45,24 +43,21 @@ void WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::s
     {
       writer->AddComment(viewpoint);
     }
-    WriteWith(writer.Get(), surface, fileName);
+    return WriteWith(writer.Get(), surface, fileName);
   }
-  else if (ending == ".stl")
+  if (ending == ".stl")
   {
     vtkNew<vtkSTLWriter> writer;
     writer->SetFileTypeToBinary();
-    WriteWith(writer.Get(), surface, fileName);
+    return WriteWith(writer.Get(), surface, fileName);
   }
-  else if (ending == ".obj")
+  if (ending == ".obj")
   {
     vtkNew<vtkOBJWriter> writer;
-    WriteWith(writer.Get(), surface, fileName);
+    return WriteWith(writer.Get(), surface, fileName);
   }
-  else
-  {
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    WriteWith(writer.Get(), surface, fileName);
-  }
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  return WriteWith(writer.Get(), surface, fileName);
 }
 
 }
@@ -81,33 +76,31 @@ int vtkSurfaceWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkSurfaceWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
   auto* surface = vtkPolyData::SafeDownCast(this->GetInput());
-  try
-  {
-    if (!CanWriteFile(this->FileName))
+  this->SetErrorCode(freespace::WriteOrTell(this,
+    [&]
     {
-      throw freespace::Error("Cannot write '" + this->FileName +
-        "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
-    }
-    if (!surface || surface->GetNumberOfCells() == 0)
-    {
-      throw freespace::Error("Cannot write " + this->FileName + ": the surface is empty.");
-    }
-    freespace::AtomicOutput target(this->FileName);
-    // VTK's PLY writer appends its own ending to any but ".ply".
-    const std::string ending = freespace::LowerCaseEnding(this->FileName);
-    const std::filesystem::path written =
-      std::filesystem::path(target.Path()).replace_extension(ending);
-    WriteByEnding(surface, ending, written.string());
-    std::filesystem::rename(written, target.Path());
-    target.Commit();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+      if (!CanWriteFile(this->FileName))
+      {
+        throw freespace::Error("Cannot write '" + this->FileName +
+          "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
+      }
+      if (!surface || surface->GetNumberOfCells() == 0)
+      {
+        throw freespace::Error("Cannot write " + this->FileName + ": the surface is empty.");
+      }
+      freespace::AtomicOutput target(this->FileName);
+      // VTK's PLY writer appends its own ending to any but ".ply".
+      const std::string ending = freespace::LowerCaseEnding(this->FileName);
+      const std::filesystem::path written =
+        std::filesystem::path(target.Path()).replace_extension(ending);
+      if (!WriteByEnding(surface, ending, written.string()))
+      {
+        throw target.Failure();
+      }
+      std::filesystem::rename(written, target.Path());
+      target.Commit();
+    }));
 }
 
 void vtkSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -5,6 +5,8 @@
 #include "BinaryGLTF.h"
 #include "Error.h"
 #include "FileEnding.h"
+#include "PngBytes.h"
+#include "WriteOrTell.h"
 
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
@@ -25,7 +27,7 @@ vtkStandardNewMacro(vtkTexturedSurfaceWriter);
 namespace
 {
 
-void WriteColouredPLY(vtkPolyData* surface, const std::string& fileName)
+void WriteColouredPLY(vtkPolyData* surface, const freespace::AtomicOutput& target)
 {
   auto* colors = vtkUnsignedCharArray::SafeDownCast(surface->GetPointData()->GetScalars());
   if (!colors || !colors->GetName())
@@ -40,39 +42,58 @@ void WriteColouredPLY(vtkPolyData* surface, const std::string& fileName)
   writer->SetInputData(plain);
   writer->SetArrayName(colors->GetName());
   writer->SetFileTypeToBinary();
-  writer->SetFileName(fileName.c_str());
+  writer->SetFileName(target.Path().c_str());
   if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+    throw target.Failure();
   }
 }
 
 // VTK's writer names the texture with the folder that the files are made in, which is not where they
 // end: the three lie beside each other.
-void WriteMaterial(const std::string& fileName)
+void WriteMaterial(const freespace::AtomicOutput& target)
 {
-  std::filesystem::path material = fileName;
+  std::filesystem::path material = target.Path();
   const std::string name = material.stem().string();
   std::ofstream file(material.replace_extension(".mtl"));
   file << "newmtl " << name << "\nmap_Kd " << name << ".png\n";
   file.close();
   if (!file)
   {
-    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+    throw target.Failure();
   }
 }
 
-void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const std::string& fileName)
+// The texture beside the model.
+void WritePicture(vtkImageData* texture, const freespace::AtomicOutput& target)
 {
+  const auto bytes = freespace::PngBytes(texture);
+  std::ofstream file(
+    std::filesystem::path(target.Path()).replace_extension(".png"), std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
+  file.close();
+  if (!file)
+  {
+    throw target.Failure();
+  }
+}
+
+void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const freespace::AtomicOutput& target)
+{
+  // VTK's writer wants a texture to refer to, and writes it: the true one comes after.
+  vtkNew<vtkImageData> onePixel;
+  onePixel->SetDimensions(1, 1, 1);
+  onePixel->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   vtkNew<vtkOBJWriter> writer;
   writer->SetInputData(0, surface);
-  writer->SetInputData(1, texture);
-  writer->SetFileName(fileName.c_str());
+  writer->SetInputData(1, onePixel);
+  writer->SetFileName(target.Path().c_str());
   if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
   {
-    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
+    throw target.Failure();
   }
-  WriteMaterial(fileName);
+  WriteMaterial(target);
+  WritePicture(texture, target);
 }
 
 }
@@ -100,44 +121,39 @@ int vtkTexturedSurfaceWriter::FillInputPortInformation(int port, vtkInformation*
 
 void vtkTexturedSurfaceWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
   auto* surface = vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0));
   auto* texture = vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
-  try
-  {
-    if (!CanWriteFile(this->FileName))
+  this->SetErrorCode(freespace::WriteOrTell(this,
+    [&]
     {
-      throw freespace::Error("Cannot write '" + this->FileName +
-        "': a textured surface's file name ends in .glb, .obj or .ply.");
-    }
-    const std::string ending = freespace::LowerCaseEnding(this->FileName);
-    const bool textured = texture && texture->GetNumberOfPoints() > 0 &&
-      texture->GetScalarType() == VTK_UNSIGNED_CHAR && surface->GetPointData()->GetTCoords();
-    if (ending != ".ply" && !textured)
-    {
-      throw freespace::Error(
-        "Cannot write " + this->FileName + ": the surface has no texture or no coordinates in it.");
-    }
-    freespace::AtomicOutput target(this->FileName);
-    if (ending == ".glb")
-    {
-      freespace::WriteBinaryGLTF(surface, texture, this->ZUp, target.Path());
-    }
-    else if (ending == ".obj")
-    {
-      WriteOBJ(surface, texture, target.Path());
-    }
-    else
-    {
-      WriteColouredPLY(surface, target.Path());
-    }
-    target.Commit();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+      if (!CanWriteFile(this->FileName))
+      {
+        throw freespace::Error("Cannot write '" + this->FileName +
+          "': a textured surface's file name ends in .glb, .obj or .ply.");
+      }
+      const std::string ending = freespace::LowerCaseEnding(this->FileName);
+      const bool textured = texture && texture->GetNumberOfPoints() > 0 &&
+        texture->GetScalarType() == VTK_UNSIGNED_CHAR && surface->GetPointData()->GetTCoords();
+      if (ending != ".ply" && !textured)
+      {
+        throw freespace::Error("Cannot write " + this->FileName +
+          ": the surface has no texture or no coordinates in it.");
+      }
+      freespace::AtomicOutput target(this->FileName);
+      if (ending == ".glb")
+      {
+        freespace::WriteBinaryGLTF(surface, texture, this->ZUp, target);
+      }
+      else if (ending == ".obj")
+      {
+        WriteOBJ(surface, texture, target);
+      }
+      else
+      {
+        WriteColouredPLY(surface, target);
+      }
+      target.Commit();
+    }));
 }
 
 void vtkTexturedSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "WriteOrTell.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -23,32 +24,27 @@ int vtkViewBlocksWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkViewBlocksWriter::WriteData()
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
-  try
-  {
-    if (std::filesystem::path(this->FileName).extension() != ".vtm")
+  this->SetErrorCode(freespace::WriteOrTell(this,
+    [&]
     {
-      throw freespace::Error(
-        "Cannot write '" + this->FileName + "': the name of a file of views ends in .vtm.");
-    }
-    freespace::AtomicOutput target(this->FileName);
-    vtkNew<vtkXMLMultiBlockDataWriter> writer;
-    writer->SetInputDataObject(this->GetInput());
-    writer->SetFileName(target.Path().c_str());
-    // As fast as the disk: zlib and base64 take longer than all that made the maps.
-    writer->SetCompressorTypeToLZ4();
-    writer->EncodeAppendedDataOff();
-    if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
-    {
-      throw freespace::Error("Cannot write " + this->FileName + ": the disk is full or failed.");
-    }
-    target.Commit();
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-  }
+      if (std::filesystem::path(this->FileName).extension() != ".vtm")
+      {
+        throw freespace::Error(
+          "Cannot write '" + this->FileName + "': the name of a file of views ends in .vtm.");
+      }
+      freespace::AtomicOutput target(this->FileName);
+      vtkNew<vtkXMLMultiBlockDataWriter> writer;
+      writer->SetInputDataObject(this->GetInput());
+      writer->SetFileName(target.Path().c_str());
+      // As fast as the disk: zlib and base64 take longer than all that made the maps.
+      writer->SetCompressorTypeToLZ4();
+      writer->EncodeAppendedDataOff();
+      if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+      {
+        throw target.Failure();
+      }
+      target.Commit();
+    }));
 }
 
 void vtkViewBlocksWriter::PrintSelf(ostream& os, vtkIndent indent)

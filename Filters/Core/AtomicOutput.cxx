@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AtomicOutput.h"
 
-#include "Error.h"
-
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <vector>
 
@@ -119,6 +118,23 @@ AtomicOutput::~AtomicOutput()
   fs::remove_all(this->Folder, ignored);
 }
 
+void AtomicOutput::Write(const void* bytes, std::size_t count) const
+{
+  std::ofstream file(this->Path(), std::ios::binary);
+  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+  file.close();
+  if (!file)
+  {
+    throw this->Failure();
+  }
+}
+
+Error AtomicOutput::Failure() const
+{
+  return Error("Cannot write " + this->Target.string() +
+    ": the disk is full, or the file is larger than is allowed.");
+}
+
 void AtomicOutput::Commit()
 {
   if (!fs::exists(this->Path()))
@@ -129,8 +145,7 @@ void AtomicOutput::Commit()
   {
     if (!IsWhole(this->Folder))
     {
-      throw Error("Cannot write " + this->Target.string() +
-        ": the disk is full, or the file is larger than is allowed.");
+      throw this->Failure();
     }
     // The target itself last: it refers to the others.
     const fs::path parent = this->Target.has_parent_path() ? this->Target.parent_path() : ".";

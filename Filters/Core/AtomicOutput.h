@@ -2,6 +2,8 @@
 #ifndef freespace_AtomicOutput_h
 #define freespace_AtomicOutput_h
 
+#include "Error.h"
+
 #include <filesystem>
 #include <string>
 
@@ -21,6 +23,12 @@ public:
 
   /// Where to write the target; other files may be written beside it.
   std::string Path() const { return (this->Folder / this->Target.filename()).string(); }
+
+  /// Writes all of the target at once. Throws Failure.
+  void Write(const void* bytes, std::size_t count) const;
+
+  /// What to throw where the target could not be written.
+  Error Failure() const;
 
   /// Moves all that was written into the target's folder. Folders beside a target, such as the NAME of
   /// NAME.vtm, may be somebody's own: what they hold stays, but for NAME_0.vtp, NAME_1.vtp, ..., the

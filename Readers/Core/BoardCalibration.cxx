@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "WholeFile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,19 @@ namespace
 
 cv::Mat ReadGray(const std::string& file)
 {
-  cv::Mat gray = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat gray;
+  if (fs::is_regular_file(file))
+  {
+    CheckWholeJPEG(file);
+    try
+    {
+      gray = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    }
+    catch (const cv::Exception&)
+    {
+      gray.release(); // told below
+    }
+  }
   if (gray.empty())
   {
     throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");
@@ -557,10 +570,9 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
       throw Error("Cannot read the picture " + picture.file + " again.");
     }
     AtomicOutput output(target.string());
-    if (!cv::imwrite(output.Path(), DrawBoardCorners(pixels, picture.corners)))
-    {
-      throw Error("Cannot write " + target.string() + ": the disk is full or failed.");
-    }
+    std::vector<std::uint8_t> jpeg;
+    cv::imencode(".jpg", DrawBoardCorners(pixels, picture.corners), jpeg);
+    output.Write(jpeg.data(), jpeg.size());
     output.Commit();
   }
 }

@@ -84,19 +84,9 @@ void WriteFeatureOverlay(const View& view, const std::vector<std::vector<int>>& 
     }
   }
   AtomicOutput output(file);
-  bool written = false;
-  try
-  {
-    written = cv::imwrite(output.Path(), picture);
-  }
-  catch (const cv::Exception&)
-  {
-    // Told below.
-  }
-  if (!written)
-  {
-    throw Error("Cannot write " + file + ": the disk is full or failed.");
-  }
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", picture, png);
+  output.Write(png.data(), png.size());
   output.Commit();
 }
 

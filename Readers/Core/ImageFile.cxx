@@ -2,6 +2,7 @@
 #include "ImageFile.h"
 
 #include "Error.h"
+#include "WholeFile.h"
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -16,6 +17,7 @@ cv::Mat LoadImage(const std::string& path, int width, int height)
   {
     throw Error("Cannot read the image " + path + ": there is no such file.");
   }
+  CheckWholeJPEG(path);
   cv::Mat image;
   try
   {

@@ -104,6 +104,43 @@ PLYHeader ReadPLYHeader(std::ifstream& file)
   return header;
 }
 
+// Where the marker after the coded data that begins there is; what looks like one but is data is marked.
+std::size_t NextMarker(const std::string& bytes, std::size_t at)
+{
+  const auto isData = [](unsigned char code)
+  { return code == 0 || (code >= 0xD0 && code <= 0xD7); };
+  while (at + 1 < bytes.size() && (bytes[at] != '\xFF' || isData(bytes[at + 1])))
+  {
+    ++at;
+  }
+  return at;
+}
+
+// Goes through the segments of a JPEG, whose lengths are two bytes, to the marker of the end.
+bool HasEndOfJPEG(const std::string& bytes)
+{
+  constexpr unsigned char endOfImage = 0xD9, startOfScan = 0xDA, fill = 0xFF;
+  std::size_t at = 2;
+  while (at + 3 < bytes.size() && bytes[at] == '\xFF')
+  {
+    const unsigned char code = bytes[at + 1];
+    if (code == endOfImage)
+    {
+      return true;
+    }
+    if (code == fill)
+    {
+      ++at;
+      continue;
+    }
+    at += 2 + 256 * static_cast<unsigned char>(bytes[at + 2]) +
+      static_cast<unsigned char>(bytes[at + 3]);
+    at = code == startOfScan ? NextMarker(bytes, at) : at;
+  }
+  return at + 1 < bytes.size() && bytes[at] == '\xFF' &&
+    static_cast<unsigned char>(bytes[at + 1]) == endOfImage;
+}
+
 }
 
 void CheckWholeVTKFile(const std::string& fileName)
@@ -158,6 +195,24 @@ void CheckWholeSTL(const std::string& fileName)
   if (!binary && !text)
   {
     ThrowCutOff(fileName, "an STL file");
+  }
+}
+
+void CheckWholeJPEG(const std::string& fileName)
+{
+  std::ifstream file = Open(fileName);
+  std::string bytes(3, '\0');
+  file.read(bytes.data(), 3);
+  if (!file || bytes != "\xFF\xD8\xFF")
+  {
+    return;
+  }
+  std::ostringstream rest;
+  rest << file.rdbuf();
+  bytes += rest.str();
+  if (!HasEndOfJPEG(bytes))
+  {
+    throw Error("Cannot read the image " + fileName + ": it is damaged or truncated.");
   }
 }
 

@@ -20,6 +20,9 @@ void CheckWholePLY(const std::string& fileName);
 /// A binary STL announces its triangles, a text one ends with "endsolid".
 void CheckWholeSTL(const std::string& fileName);
 
+/// A JPEG ends with a marker; decoders make up what is missing before it. Other pictures pass.
+void CheckWholeJPEG(const std::string& fileName);
+
 }
 
 #endif

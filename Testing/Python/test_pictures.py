@@ -453,7 +453,9 @@ class TestFullDisk(WithScene):
                                 text=True, timeout=300, preexec_fn=lambda: resource.setrlimit(
                                     resource.RLIMIT_FSIZE, (20000, 20000)))
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn('Cannot write', result.stderr)
+        # One sentence, with the name that was asked for, and none of a library's words.
+        name = arguments[arguments.index('-o') + 1]
+        self.assertRegex(result.stderr, rf'^freespace: Cannot write {re.escape(name)}[^\n]*\n$')
         self.assertEqual(sorted(self.folder.rglob('*')), before)
 
     def test_surfaces_maps_and_models(self):
@@ -462,7 +464,14 @@ class TestFullDisk(WithScene):
                 self.cut_off('contour', 'maps.vtm', '--cells', 40, '-o', name)
         self.cut_off('triangulate', 'features.vtm', '-o', 'cut.vtm')
         self.cut_off('occupancy', 'maps.vtm', '-o', 'cut.ot')
-        self.cut_off('texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'cut.glb')
+        for name in ('cut.glb', 'cut.obj', 'cut.ply'):
+            self.cut_off('texture', 'mesh.ply', '--scene', 'scene.json', '-o', name)
+
+    def test_pictures_and_films(self):
+        self.cut_off('render', 'mesh.ply', '-o', 'cut.png')
+        self.cut_off('view', 'scene.json', '--mesh', 'mesh.ply', '-o', 'cut.png')
+        self.cut_off('view', 'scene.json', '--mesh', 'mesh.ply', '--turntable', 3, '-o', 'cut.ogv')
+        self.cut_off('view', 'scene.json', '--mesh', 'mesh.ply', '--turntable', 3, '-o', 'cut')
 
     def test_standard_output(self):
         (self.folder / 'points.csv').write_text('0,0,0\n')

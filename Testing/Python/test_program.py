@@ -169,6 +169,27 @@ class TestBadInput(WithFolder):
         (self.folder / 'images' / 'cluster1_l.jpg').write_text('not a picture')
         self.stereo_fails('cluster1_l.jpg', scene)
 
+    def test_truncated_image(self):
+        scene = self.small_scene()
+        path = self.folder / 'images' / 'cluster1_l.jpg'
+        whole = path.read_bytes()
+        for size in (len(whole) // 2, len(whole) - 1):
+            path.write_bytes(whole[:size])
+            self.expect_error('cluster1_l.jpg', 'stereo', scene, '-o', 'out.vtm')
+            self.expect_error('cluster1_l.jpg', 'calibrate', path, path, '--board', 'chessboard:9x6:1', '-o', 'out')
+        path.write_bytes(whole + b'what a telephone adds')
+        self.succeed('stereo', scene, '-o', 'out.vtm')
+
+    def test_libraries_have_no_word(self):
+        """What decoders print by themselves, beside telling that they failed."""
+        scene = self.small_scene()
+        path = self.folder / 'images' / 'cluster1_l.jpg'
+        for damaged in (b'P5 -4 9999999 255\n', b'#?RADIANCE\nnone\n\n', b'\x89PNG\r\n\x1a\n' + 40 * b'\0'):
+            path.write_bytes(damaged)
+            result = run('-q', 'stereo', scene, '-o', 'out.vtm', cwd=self.folder)
+            self.assertEqual(result.returncode, 1)
+            self.assertRegex(result.stderr, r'^freespace: [^\n]*cluster1_l.jpg[^\n]*\n$')
+
     def test_image_of_another_size(self):
         scene = self.small_scene()
         cameras = self.folder / 'sparse' / 'cameras.txt'

@@ -2,6 +2,7 @@
 #include "Picture.h"
 
 #include "Error.h"
+#include "FileEnding.h"
 #include "Session.h"
 #include "Stages.h"
 
@@ -9,15 +10,13 @@
 #include <vtkPolyData.h>
 #include <vtkSurfacePicture.h>
 
-#include <filesystem>
-
 namespace freespace
 {
 
 void CheckPictureName(const std::string& fileName)
 {
   CheckOutputFolder(fileName);
-  if (std::filesystem::path(fileName).extension() != ".png")
+  if (LowerCaseEnding(fileName) != ".png")
   {
     throw Error("Cannot write '" + fileName + "': the name of a picture ends in .png.");
   }

@@ -45,7 +45,7 @@ void PieceStream::Check(bool isGood) const
 {
   if (!isGood)
   {
-    throw Error("Cannot write " + this->Name + ": the disk is full or failed.");
+    throw this->Target.Failure();
   }
 }
 

@@ -24,7 +24,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 
@@ -340,13 +339,7 @@ void AddTimes(const Settings& settings, double modelSeconds, double figureSecond
 void WritePage(const std::string& page, const std::string& fileName)
 {
   AtomicOutput target(fileName);
-  std::ofstream file(target.Path(), std::ios::binary);
-  file << page;
-  file.close();
-  if (!file)
-  {
-    throw Error("Cannot write " + fileName + ": the disk is full or failed.");
-  }
+  target.Write(page.data(), page.size());
   target.Commit();
 }
 

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "ErrorCollector.h"
+#include "LibraryWords.h"
 #include "ProgressLine.h"
 #include "Ranks.h"
 
@@ -57,9 +58,12 @@ ErrorCollector* Collector()
   return collector;
 }
 
-// Does some work with its progress shown, its errors collected and interrupts passed on.
-void DoWatched(vtkObject* worker, ProgressLine& line, const std::function<void()>& work)
+// Does some work with its progress shown, its errors collected and interrupts passed on. Returns what libraries
+// said meanwhile.
+std::vector<std::string> DoWatched(
+  vtkObject* worker, ProgressLine& line, const std::function<void()>& work)
 {
+  const LibraryWords words;
   Collector()->Clear();
   vtkNew<vtkCallbackCommand> onProgress;
   onProgress->SetCallback(OnProgress);
@@ -67,6 +71,7 @@ void DoWatched(vtkObject* worker, ProgressLine& line, const std::function<void()
   const unsigned long tag = worker->AddObserver(vtkCommand::ProgressEvent, onProgress);
   work();
   worker->RemoveObserver(tag);
+  return words.Lines();
 }
 
 }
@@ -112,9 +117,14 @@ void Session::Do()
 void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)
 {
   ProgressLine line(stage, this->Quiet);
-  DoWatched(worker, line, work);
-  this->ThrowIfFailed();
+  const std::vector<std::string> words = DoWatched(worker, line, work);
+  this->ThrowIfFailed(); // which tells better what libraries may have said, too
   line.Finish();
+  for (const std::string& word : words)
+  {
+    this->Tell(
+      (word.rfind("freespace: ", 0) == 0 ? "" : "freespace: warning: " + stage + ": ") + word);
+  }
 }
 
 void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)

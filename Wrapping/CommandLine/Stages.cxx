@@ -3,6 +3,7 @@
 
 #include "AtomicOutput.h"
 #include "Error.h"
+#include "FileEnding.h"
 #include "PieceStream.h"
 #include "NotNegative.h"
 #include "Session.h"
@@ -272,7 +273,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
   // Most lattices are too small to have such a surface.
   const double worst = std::pow(this->Cells, 3) * WorstCell;
   if (limit == 0 || worst <= limit || this->Observed || this->Simplify > 0 ||
-    std::filesystem::path(fileName).extension() != ".ply")
+    LowerCaseEnding(fileName) != ".ply")
   {
     return false;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands.h"
 
+#include "NewFolder.h"
 #include "Scene.h"
 #include "Session.h"
 #include "Stages.h"
@@ -35,6 +36,7 @@ void FindFeatures(Session& session, const Settings& settings)
     overlay->SetInputDataObject(features);
     overlay->SetImagesFolder(ReadScene(settings.scene).ImagesFolder());
     overlay->SetOutputFolder(settings.overlay);
+    const NewFolder folder(settings.overlay); // gone again if nothing comes into it
     session.Write(overlay);
     session.Tell("wrote the pictures in " + settings.overlay);
   }

@@ -7,7 +7,6 @@
 #include "Session.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <vector>
@@ -39,13 +38,8 @@ std::string ConfigText(const CLI::App& program)
 void SaveConfig(const CLI::App& program, const std::string& fileName)
 {
   freespace::AtomicOutput target(fileName);
-  std::ofstream file(target.Path());
-  file << ConfigText(program);
-  file.close();
-  if (!file)
-  {
-    throw freespace::Error("Cannot write " + fileName + ": the disk is full or failed.");
-  }
+  const std::string text = ConfigText(program);
+  target.Write(text.data(), text.size());
   target.Commit();
 }
 
