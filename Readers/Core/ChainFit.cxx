@@ -32,9 +32,9 @@ void Directions(const double* x, const double* y, const float* gx, const float* 
     const double levelX = gy[k], levelY = -gx[k];
     const bool ahead = x[k] * levelX + y[k] * levelY > 0;
     const double alongX = ahead ? x[k] : levelX, alongY = ahead ? y[k] : levelY;
-    const double length = std::sqrt(alongX * alongX + alongY * alongY);
-    unitX[k] = alongX / length;
-    unitY[k] = alongY / length;
+    const double inverse = 1 / std::sqrt(alongX * alongX + alongY * alongY);
+    unitX[k] = alongX * inverse;
+    unitY[k] = alongY * inverse;
   }
 }
 

@@ -55,6 +55,19 @@ public:
     return -1;
   }
 
+  /// Whether the pieces that start at two tokens belong to one chain, at most `most` pieces apart and
+  /// none between them empty.
+  bool Connects(int token, int other, int most) const
+  {
+    const int first = std::min(token, other), last = std::max(token, other);
+    bool connects = last - first <= most;
+    for (int k = first; connects && k < last; ++k)
+    {
+      connects = !this->Pieces[k].Empty();
+    }
+    return connects;
+  }
+
   /// What to look for in a row.
   struct Search
   {

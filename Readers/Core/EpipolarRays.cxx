@@ -44,9 +44,9 @@ void Normalize(double* __restrict x, double* __restrict y, int count)
 {
   for (int k = 0; k < count; ++k)
   {
-    const double length = std::sqrt(x[k] * x[k] + y[k] * y[k]);
-    x[k] /= length;
-    y[k] /= length;
+    const double inverse = 1 / std::sqrt(x[k] * x[k] + y[k] * y[k]);
+    x[k] *= inverse;
+    y[k] *= inverse;
   }
 }
 

@@ -81,6 +81,9 @@ struct TokenStates
 // Candidates that miss each other by so many tolerances may meet at a neighbour along the chain.
 constexpr double Promising = 2;
 
+// An edge of another image is followed over so many pieces.
+constexpr int FarthestLead = 8;
+
 class Matcher
 {
 public:
@@ -249,8 +252,9 @@ private:
       });
   }
 
-  // The edges that continue the support of a neighbour's hypotheses.
-  void FollowCandidates(int token, const TokenStates& states)
+  // The support of a neighbour's hypotheses, which leads to that of the tokens beside it. What leads
+  // along the same edge is taken once.
+  void AddLeads(const TokenStates& states)
   {
     constexpr float margin = 1.0f; // what is worse by more than that is not chosen along the chain
     for (int s = states.begin; s < states.end; ++s)
@@ -262,19 +266,37 @@ private:
       }
       for (int k = state.begin; k < state.begin + state.count && state.promising; ++k)
       {
-        this->Follow(token, this->Scratch[k]);
+        const EdgeCandidate& candidate = this->Scratch[k];
+        const EpipolarIndex& index = this->Images[candidate.image].index;
+        const bool known = std::any_of(this->Leads.begin(), this->Leads.end(),
+          [&](const EdgeCandidate& lead)
+          {
+            return lead.image == candidate.image &&
+              index.Connects(lead.token, candidate.token, FarthestLead);
+          });
+        if (!known)
+        {
+          this->Leads.push_back(candidate);
+        }
       }
+    }
+  }
+
+  void FollowLeads(int token)
+  {
+    for (const EdgeCandidate& lead : this->Leads)
+    {
+      this->Follow(token, lead);
     }
   }
 
   // Takes the edge of a neighbour's candidate where it crosses the token's epipolar line.
   void Follow(int token, const EdgeCandidate& candidate)
   {
-    constexpr int most = 8; // pieces
     const EpipolarLine& line = this->Lines[candidate.image];
     const EpipolarIndex& index = this->Images[candidate.image].index;
     const float row = static_cast<float>(line.ray.v);
-    const int other = line.usable ? index.Follow(candidate.token, row, most) : -1;
+    const int other = line.usable ? index.Follow(candidate.token, row, FarthestLead) : -1;
     if (other < 0)
     {
       return;
@@ -404,14 +426,12 @@ private:
     {
       const int next = std::min(last + stride, end - 1);
       this->SearchFrom(next, this->TokenStatesOf[last - begin]);
+      this->AddLeads(this->TokenStatesOf[next - begin]); // beside those of the last one
       for (int token = last + 1; token < next; ++token)
       {
         this->Candidates.clear();
         this->FindLines(token);
-        for (const int neighbor : { last, next })
-        {
-          this->FollowCandidates(token, this->TokenStatesOf[neighbor - begin]);
-        }
+        this->FollowLeads(token);
         this->TokenStatesOf[token - begin] = this->FindHypotheses(token);
       }
       last = next;
@@ -425,7 +445,9 @@ private:
     TokenStates& states = this->TokenStatesOf[token - this->FirstRay];
     this->Candidates.clear();
     this->FindLines(token);
-    this->FollowCandidates(token, neighbor);
+    this->Leads.clear();
+    this->AddLeads(neighbor);
+    this->FollowLeads(token);
     std::fill(this->Continued.begin(), this->Continued.end(), 0);
     constexpr int longest = 32; // without a search, tokens
     if (!this->Candidates.empty() && token - this->LastSearched < longest)
@@ -705,6 +727,7 @@ private:
   // One token's.
   std::vector<EpipolarLine> Lines; // per image
   std::vector<char> Continued;     // per image: a good match goes on there
+  std::vector<EdgeCandidate> Leads;
   std::vector<Crossing> Crossings;
   MeetingBins Meetings;
   std::vector<EdgeCandidate> Candidates;

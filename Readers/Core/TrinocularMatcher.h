@@ -42,11 +42,11 @@ struct EdgeMatch
 {
   int images = 0;       ///< besides the reference that show it: 0 when it has no match, 1 where it
                         ///< closes a short gap between confirmed ones, else >= 2
+  int run = -1;         ///< number of the unbroken piece of chain that it belongs to
   double disparity = 0; ///< 1 / depth in the reference camera, from all rays together
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,
     ///< moved across the edge by the little that lets all rays meet best
   double cost = 0; ///< mean over the images, in [0, 1]: colours, direction and distance
-  int run = -1;    ///< number of the unbroken piece of chain that it belongs to
 };
 
 /// Matches the tokens of a reference image over two or more other images: section 3's "feature
