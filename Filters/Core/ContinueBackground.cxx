@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <unordered_map>
 
 namespace freespace
 {
@@ -181,7 +183,8 @@ private:
   bool IsRefuted(std::size_t triangle) const;
   bool IsSeenThrough(const Vector3d& place) const;
   std::optional<double> SetBack(std::size_t triangle, int near);
-  std::optional<double> PlaneAround(int far, const Vector2d& pixel);
+  std::optional<double> PlaneAround(int far, int near);
+  std::optional<double> FitPlane(int far, const Vector2d& pixel);
   std::vector<int> FarPointsAround(int far, double radius);
   double SurfaceBehind(const Vector2d& pixel, double from, double to) const;
   std::optional<double> Crossing(
@@ -193,6 +196,7 @@ private:
   const Scene& Own;
   Others OtherScenes;
   const ContinueBackgroundOptions& Options;
+  std::unordered_map<std::uint64_t, std::optional<double>> Planes; // by their edge's ends
   std::vector<int> Stamp; // of the last search that came by a point
   int Search = 0;
 };
@@ -266,7 +270,7 @@ std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
 
 // The disparity at a pixel of the plane through the points around a far one, as widely as the pixel
 // is away; none where they do not lie in a plane.
-std::optional<double> BackgroundContinuer::PlaneAround(int far, const Vector2d& pixel)
+std::optional<double> BackgroundContinuer::FitPlane(int far, const Vector2d& pixel)
 {
   constexpr double leastRadius = 8; // pixels
   const DisparityMap& map = this->Own.map;
@@ -290,6 +294,19 @@ std::optional<double> BackgroundContinuer::PlaneAround(int far, const Vector2d& 
   return deviation <= Flatness * this->Options.noise * disparity.mean()
     ? std::optional<double>(plane[2])
     : std::nullopt;
+}
+
+// The same at a near point's pixel. The two bridges beside an edge both ask for it.
+std::optional<double> BackgroundContinuer::PlaneAround(int far, int near)
+{
+  const std::uint64_t edge =
+    static_cast<std::uint64_t>(far) << 32 | static_cast<std::uint32_t>(near);
+  const auto [known, isNew] = this->Planes.try_emplace(edge);
+  if (isNew)
+  {
+    known->second = this->FitPlane(far, this->Own.map.imagePoints[near]);
+  }
+  return known->second;
 }
 
 // Where a ray of this view goes into the surface of another one, coming through its free space;
@@ -343,7 +360,7 @@ std::optional<double> BackgroundContinuer::SetBack(std::size_t triangle, int nea
     farthest = std::min(farthest, disparity);
     if (disparity <= middle)
     {
-      if (const auto plane = this->PlaneAround(corner, pixel))
+      if (const auto plane = this->PlaneAround(corner, near))
       {
         sum += std::max(*plane, disparity); // never deeper than what is seen
         ++planes;

@@ -35,7 +35,14 @@ struct FaceInfo
   unsigned int version = 0;
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>; // index of the point
+// What a vertex knows of its point: the index, and the disparity, which is asked for all the time.
+struct VertexInfo
+{
+  int point = 0;
+  double disparity = 0;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
 using PlainTriangulation = CGAL::Delaunay_triangulation_2<Kernel,
   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
@@ -194,11 +201,12 @@ private:
     }
   };
 
+  bool IsInside(Face face, const Pixel& pixel) const;
   double Disparity(Face face, const Pixel& pixel) const;
   void PutInto(Face face, int candidate);
   void Enqueue(Face face);
   void Insert(int candidate, Face face);
-  void TakeCandidates();
+  void TakeCandidates(int inserted);
   void FindStar(Vertex center);
   void Redistribute(Vertex center);
 
@@ -234,9 +242,9 @@ void DisparitySurface<Triangulation>::TriangulateFeatures(
     hint = vertex->face();
     this->OfFeature[i] = vertex;
     const bool isNew = this->Delaunay.number_of_vertices() > before;
-    if (isNew || features[i].disparity > features[vertex->info()].disparity)
+    if (isNew || features[i].disparity > features[vertex->info().point].disparity)
     {
-      vertex->info() = static_cast<int>(i);
+      vertex->info().point = static_cast<int>(i);
     }
   }
   if (this->Delaunay.dimension() < 2)
@@ -245,13 +253,13 @@ void DisparitySurface<Triangulation>::TriangulateFeatures(
   }
   for (const Vertex vertex : this->Delaunay.finite_vertex_handles())
   {
-    vertices[vertex->info()] = vertex;
+    vertices[vertex->info().point] = vertex;
   }
   for (std::size_t i = 0; i < features.size(); ++i)
   {
     if (vertices[i] != Vertex())
     {
-      vertices[i]->info() = static_cast<int>(this->Points.size());
+      vertices[i]->info() = { static_cast<int>(this->Points.size()), features[i].disparity };
       this->Points.push_back(features[i]);
     }
   }
@@ -290,7 +298,7 @@ double DisparitySurface<Triangulation>::Disparity(Face face, const Pixel& pixel)
     const double weight = std::max(0.0,
       Cross(face->vertex(Triangulation::ccw(i))->point(),
         face->vertex(Triangulation::cw(i))->point(), pixel));
-    const double disparity = this->Points[face->vertex(i)->info()].disparity;
+    const double disparity = face->vertex(i)->info().disparity;
     weighted += weight * disparity;
     sum += weight;
     greatest = std::max(greatest, disparity);
@@ -330,6 +338,17 @@ void DisparitySurface<Triangulation>::Enqueue(Face face)
   }
 }
 
+// Strictly: no other triangle holds the pixel.
+template <typename Triangulation>
+bool DisparitySurface<Triangulation>::IsInside(Face face, const Pixel& pixel) const
+{
+  const Pixel &a = face->vertex(0)->point(), &b = face->vertex(1)->point(),
+              &c = face->vertex(2)->point();
+  return !this->Delaunay.is_infinite(face) && CGAL::orientation(a, b, pixel) == CGAL::LEFT_TURN &&
+    CGAL::orientation(b, c, pixel) == CGAL::LEFT_TURN &&
+    CGAL::orientation(c, a, pixel) == CGAL::LEFT_TURN;
+}
+
 // Only points over the triangulated region can stick out of it.
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::AddCandidates(
@@ -344,8 +363,11 @@ void DisparitySurface<Triangulation>::AddCandidates(
     const Sighting& sighting = this->Given[i];
     typename Triangulation::Locate_type type;
     int index = 0;
-    hint = this->Delaunay.locate(sighting.pixel, type, index, hint);
-    if (type != Triangulation::OUTSIDE_CONVEX_HULL)
+    if (hint == Face() || !this->IsInside(hint, sighting.pixel))
+    {
+      hint = this->Delaunay.locate(sighting.pixel, type, index, hint);
+    }
+    if (!this->Delaunay.is_infinite(hint))
     {
       const int candidate = static_cast<int>(this->Candidates.size());
       this->Candidates.push_back(
@@ -355,9 +377,9 @@ void DisparitySurface<Triangulation>::AddCandidates(
   }
 }
 
-// Takes the candidates out of the star.
+// Takes the candidates out of the star, but for the one that has been inserted.
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::TakeCandidates()
+void DisparitySurface<Triangulation>::TakeCandidates(int inserted)
 {
   this->Homeless.clear();
   for (const Face face : this->Star)
@@ -365,7 +387,10 @@ void DisparitySurface<Triangulation>::TakeCandidates()
     FaceInfo& info = face->info();
     for (int c = info.firstCandidate; c >= 0; c = this->Candidates[c].next)
     {
-      this->Homeless.push_back(c);
+      if (c != inserted)
+      {
+        this->Homeless.push_back(c);
+      }
     }
     info.firstCandidate = -1;
     ++info.version;
@@ -429,19 +454,19 @@ void DisparitySurface<Triangulation>::Insert(int candidate, Face face)
   {
     // It hides the point that is already there: the same triangles, but higher.
     vertex = face->vertex(index);
-    this->Points[vertex->info()] = sighting;
+    this->Points[vertex->info().point] = sighting;
+    vertex->info().disparity = sighting.disparity;
   }
   else
   {
     vertex = this->Delaunay.insert(sighting.pixel, type, face, index);
-    vertex->info() = static_cast<int>(this->Points.size());
+    vertex->info() = { static_cast<int>(this->Points.size()), sighting.disparity };
     this->Points.push_back(sighting);
   }
   // All triangles that were in conflict with the point are now, in another shape, around it, and
   // still hold their lists; on the hull, one may have become infinite.
   this->FindStar(vertex);
-  this->TakeCandidates();
-  this->Homeless.erase(std::find(this->Homeless.begin(), this->Homeless.end(), candidate));
+  this->TakeCandidates(candidate);
   this->Star.erase(std::remove_if(this->Star.begin(), this->Star.end(),
                      [this](Face around) { return this->Delaunay.is_infinite(around); }),
     this->Star.end());
@@ -484,8 +509,8 @@ void DisparitySurface<Triangulation>::Fill(DisparityMap& map) const
   }
   for (const Face face : this->Delaunay.finite_face_handles())
   {
-    map.triangles.push_back(
-      { face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info() });
+    map.triangles.push_back({ face->vertex(0)->info().point, face->vertex(1)->info().point,
+      face->vertex(2)->info().point });
   }
 }
 
@@ -521,6 +546,7 @@ std::vector<SightedFeature> FeaturesOfOthers(
   const Camera& camera, int index, const FeatureCloud& cloud, const StopFlag& stop)
 {
   std::vector<SightedFeature> others;
+  others.reserve(cloud.Size());
   SightedFeature sighting;
   cloud.VisitSeen(camera,
     [&](const FeatureCloud::Feature& feature)

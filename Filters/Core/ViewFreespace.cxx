@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace freespace
 {
@@ -110,6 +111,7 @@ ViewFreespace::ViewFreespace(const DisparityMap& map, const StopFlag& stop)
     return;
   }
   ThrowIfStopped(stop);
+  this->SortByPlace();
   this->LinkNeighbors(stop);
   this->MakeRaster(stop);
   ThrowIfStopped(stop);
@@ -128,6 +130,7 @@ void ViewFreespace::AddTriangles(const DisparityMap& map)
     this->Corners[i] = { map.imagePoints[i], 1.0 / depth };
   }
   Eigen::AlignedBox2d box;
+  this->Triangles.reserve(map.triangles.size());
   for (std::size_t t = 0; t < map.triangles.size(); ++t)
   {
     std::array<int, 3> c = map.triangles[t];
@@ -186,6 +189,48 @@ void ViewFreespace::AddTriangles(const DisparityMap& map)
     std::remove_if(this->Triangles.begin(), this->Triangles.end(), flat), this->Triangles.end());
 }
 
+// Triangles and corners that are near to each other in the image come near to each other in memory: tile
+// by tile of the raster. What is asked of them later mostly finds them in the cache.
+void ViewFreespace::SortByPlace()
+{
+  constexpr double tile = 8; // cells
+  const int columns = static_cast<int>(this->Width / tile) + 1;
+  const int rows = static_cast<int>(this->Height / tile) + 1;
+  const auto tileOf = [&](const Triangle& triangle)
+  {
+    const Vector2d& position = this->Corners[triangle.corner[0]].position;
+    return static_cast<int>(position.y() / tile) * columns + static_cast<int>(position.x() / tile);
+  };
+  std::vector<int> next(static_cast<std::size_t>(columns) * rows + 1, 0);
+  for (const Triangle& triangle : this->Triangles)
+  {
+    ++next[tileOf(triangle) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Triangle> sorted(this->Triangles.size());
+  for (const Triangle& triangle : this->Triangles)
+  {
+    sorted[next[tileOf(triangle)]++] = triangle;
+  }
+  this->Triangles = std::move(sorted);
+  std::vector<int> newIndex(this->Corners.size(), -1);
+  std::vector<Corner> corners;
+  corners.reserve(this->Corners.size());
+  for (Triangle& triangle : this->Triangles)
+  {
+    for (int& corner : triangle.corner)
+    {
+      if (newIndex[corner] < 0)
+      {
+        newIndex[corner] = static_cast<int>(corners.size());
+        corners.push_back(this->Corners[corner]);
+      }
+      corner = newIndex[corner];
+    }
+  }
+  this->Corners = std::move(corners);
+}
+
 void ViewFreespace::LinkNeighbors(const StopFlag& stop)
 {
   // The edges that begin at each corner, taken from their smaller corner.
@@ -228,11 +273,11 @@ void ViewFreespace::LinkNeighbors(const StopFlag& stop)
   }
 }
 
-// Calls visit(cell, column, row, whether the polygon holds the cell's centre) for each cell that a
-// small convex polygon touches: band by band over the rows of the raster, between the outermost points
+// Calls visit(row, first and last column, leftmost and rightmost place at the row's middle) for each row
+// of cells that a small convex polygon touches: band by band over the rows of the raster, between the outermost points
 // that the polygon's edges have in the band.
 template <typename Visit>
-void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& visit) const
+void ViewFreespace::VisitRows(const Vector2d* polygon, int corners, Visit&& visit) const
 {
   // A hair of room, so that a point is never rounded into a cell that its triangle was not told to.
   const double room = 1e-9 * (this->Width + this->Height);
@@ -285,11 +330,7 @@ void ViewFreespace::VisitCells(const Vector2d* polygon, int corners, Visit&& vis
     {
       const int from = std::clamp(static_cast<int>(left - room), 0, this->Width - 1);
       const int to = std::clamp(static_cast<int>(right + room), 0, this->Width - 1);
-      for (int column = from; column <= to; ++column)
-      {
-        visit(static_cast<std::size_t>(row) * this->Width + column, column, row,
-          leftMiddle <= column + 0.5 && column + 0.5 <= rightMiddle);
-      }
+      visit(row, from, to, leftMiddle, rightMiddle);
     }
   }
 }
@@ -298,8 +339,13 @@ void ViewFreespace::MakeRaster(const StopFlag& stop)
 {
   const std::size_t cells = static_cast<std::size_t>(this->Width) * this->Height;
   this->Cells.assign(cells, { Infinity, -Infinity, -1 });
-  std::vector<std::pair<unsigned int, int>> touches;
-  touches.reserve(8 * this->Triangles.size());
+  // A triangle's cells in a row.
+  struct Run
+  {
+    int cell, count, triangle;
+  };
+  std::vector<Run> runs;
+  runs.reserve(4 * this->Triangles.size());
   for (std::size_t t = 0; t < this->Triangles.size(); ++t)
   {
     ThrowIfStopped(stop);
@@ -314,23 +360,28 @@ void ViewFreespace::MakeRaster(const StopFlag& stop)
       most = std::max(most, corner.disparity);
     }
     const double reach = 0.5 * (std::abs(triangle.slopeX) + std::abs(triangle.slopeY));
-    this->VisitCells(polygon, 3,
-      [&](std::size_t index, int column, int row, bool holdsCenter)
+    const Corner& origin = this->Corners[triangle.corner[0]];
+    this->VisitRows(polygon, 3,
+      [&](int row, int first, int last, double leftMiddle, double rightMiddle)
       {
-        Cell& cell = this->Cells[index];
-        const Corner& corner = this->Corners[triangle.corner[0]];
-        const double center = corner.disparity +
-          triangle.slopeX * (column + 0.5 - corner.position.x()) +
-          triangle.slopeY * (row + 0.5 - corner.position.y());
-        const double low = std::clamp(center - reach, least, most);
-        const double high = std::clamp(center + reach, least, most);
-        cell.low = std::min(cell.low, RoundDown(low * (1 - Slack)));
-        cell.high = std::max(cell.high, RoundUp(high * (1 + Slack)));
-        if (cell.triangle < 0 || holdsCenter)
+        const int begin = row * this->Width + first;
+        runs.push_back({ begin, last - first + 1, static_cast<int>(t) });
+        for (int column = first; column <= last; ++column)
         {
-          cell.triangle = static_cast<int>(t);
+          Cell& cell = this->Cells[begin + column - first];
+          const double center = origin.disparity +
+            triangle.slopeX * (column + 0.5 - origin.position.x()) +
+            triangle.slopeY * (row + 0.5 - origin.position.y());
+          const double low = std::clamp(center - reach, least, most);
+          const double high = std::clamp(center + reach, least, most);
+          cell.low = std::min(cell.low, RoundDown(low * (1 - Slack)));
+          cell.high = std::max(cell.high, RoundUp(high * (1 + Slack)));
+          const bool holdsCenter = leftMiddle <= column + 0.5 && column + 0.5 <= rightMiddle;
+          if (cell.triangle < 0 || holdsCenter)
+          {
+            cell.triangle = static_cast<int>(t);
+          }
         }
-        touches.emplace_back(static_cast<unsigned int>(index), static_cast<int>(t));
       });
   }
   ThrowIfStopped(stop);
@@ -343,8 +394,14 @@ void ViewFreespace::MakeRaster(const StopFlag& stop)
       {
         const Vector2d edge[2] = { this->Corners[triangle.corner[i]].position,
           this->Corners[triangle.corner[(i + 1) % 3]].position };
-        this->VisitCells(
-          edge, 2, [&](std::size_t index, int, int, bool) { this->Cells[index].high = Infinity; });
+        this->VisitRows(edge, 2,
+          [&](int row, int first, int last, double, double)
+          {
+            for (int column = first; column <= last; ++column)
+            {
+              this->Cells[row * this->Width + column].high = Infinity;
+            }
+          });
       }
     }
   }
@@ -353,46 +410,50 @@ void ViewFreespace::MakeRaster(const StopFlag& stop)
     cell.high = cell.triangle < 0 ? Infinity : cell.high;
   }
   ThrowIfStopped(stop);
-  this->ListBegin.assign(cells + 1, 0);
-  for (const auto& touch : touches)
+  this->ListBegin.assign(cells + 2, 0);
+  for (const Run& run : runs)
   {
-    ++this->ListBegin[touch.first + 1];
+    for (int i = 0; i < run.count; ++i)
+    {
+      ++this->ListBegin[run.cell + i + 2];
+    }
   }
-  for (std::size_t i = 0; i < cells; ++i)
+  std::partial_sum(this->ListBegin.begin(), this->ListBegin.end(), this->ListBegin.begin());
+  this->List.resize(this->ListBegin.back());
+  for (const Run& run : runs)
   {
-    this->ListBegin[i + 1] += this->ListBegin[i];
-  }
-  this->List.resize(touches.size());
-  std::vector<int> next(this->ListBegin.begin(), this->ListBegin.end() - 1);
-  for (const auto& touch : touches)
-  {
-    this->List[next[touch.first]++] = touch.second;
+    for (int i = 0; i < run.count; ++i)
+    {
+      this->List[this->ListBegin[run.cell + i + 1]++] = run.triangle;
+    }
   }
 }
 
 void ViewFreespace::MakePyramid()
 {
   Level level{ this->Width, this->Height, {} };
+  level.bounds.reserve(this->Cells.size());
   for (const Cell& cell : this->Cells)
   {
     level.bounds.emplace_back(cell.low, cell.high);
   }
   while (true)
   {
-    this->Pyramid.push_back(level);
-    if (level.width == 1 && level.height == 1)
+    this->Pyramid.push_back(std::move(level));
+    const Level& fine = this->Pyramid.back();
+    if (fine.width == 1 && fine.height == 1)
     {
       return;
     }
-    Level coarse{ (level.width + 1) / 2, (level.height + 1) / 2, {} };
+    Level coarse{ (fine.width + 1) / 2, (fine.height + 1) / 2, {} };
     // What lies beyond the raster is not covered.
     coarse.bounds.assign(
       static_cast<std::size_t>(coarse.width) * coarse.height, { Infinity, -Infinity });
-    for (int y = 0; y < level.height; ++y)
+    for (int y = 0; y < fine.height; ++y)
     {
-      for (int x = 0; x < level.width; ++x)
+      for (int x = 0; x < fine.width; ++x)
       {
-        const auto& from = level.bounds[static_cast<std::size_t>(y) * level.width + x];
+        const auto& from = fine.bounds[static_cast<std::size_t>(y) * fine.width + x];
         auto& to = coarse.bounds[static_cast<std::size_t>(y / 2) * coarse.width + x / 2];
         to.first = std::min(to.first, from.first);
         to.second = std::max(to.second, from.second);

@@ -149,10 +149,11 @@ private:
   double Turn(int a, int b, double x, double y) const;
 
   void AddTriangles(const DisparityMap& map);
+  void SortByPlace();
   void LinkNeighbors(const StopFlag& stop);
   void MakeRaster(const StopFlag& stop);
   template <typename Visit>
-  void VisitCells(const Eigen::Vector2d* polygon, int corners, Visit&& visit) const;
+  void VisitRows(const Eigen::Vector2d* polygon, int corners, Visit&& visit) const;
   void MakePyramid();
 
   Eigen::Matrix<double, 3, 4> RasterFromWorld; ///< homogeneous; its last row is the depth
