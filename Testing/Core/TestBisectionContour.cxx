@@ -439,6 +439,46 @@ TEST_P(SharpCube, HasItsEdgesAndCornersToATenthOfACell)
 
 INSTANTIATE_TEST_SUITE_P(BisectionContour, SharpCube, testing::Range(0u, 38u));
 
+// A cube whose normals are off by some 10 degrees, as those of a rough surface are.
+class CubeOfRoughNormals : public TurnedCube
+{
+public:
+  using TurnedCube::TurnedCube;
+  SurfaceLabel Label(
+    const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const override
+  {
+    SurfaceLabel label = this->TurnedCube::Label(free, matter, scope);
+    const Vector3d far = 1e4 * free;
+    std::mt19937 random(static_cast<unsigned int>(
+      std::llround(far.x()) + 1000 * std::llround(far.y()) + 1000000 * std::llround(far.z())));
+    std::uniform_real_distribution<double> off(-0.25, 0.25);
+    label.normal += Vector3d(off(random), off(random), off(random));
+    label.normal.normalize();
+    return label;
+  }
+};
+
+// Their vertices keep a hundredth of a cell from the sides; that must not part them from each other.
+TEST(BisectionContour, SharpEdgesBesideTheSidesOfCellsHangTogether)
+{
+  const ContourLattice lattice(Cube(1.1), 32);
+  for (double beside : { -0.012, -0.008, -0.003, 0.003, 0.008, 0.012 })
+  {
+    CubeOfRoughNormals cube(0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double side = lattice.origin[axis] + (20 + axis + beside) * lattice.spacing;
+      cube.Center[axis] = side - 0.5;
+    }
+    ContourOptions options = Cells(32);
+    options.tolerance = 1e-5;
+    options.sharp = true;
+    const ContourMesh sharp = BisectionContour(cube, Cube(1.1), options);
+    EXPECT_EQ(TopologyFaults(sharp), "");
+    EXPECT_LE(CountFar(cube, sharp, 0.2 * lattice.spacing).first, 7) << beside;
+  }
+}
+
 // Also where a corner pokes through cells along their diagonals. Where an edge comes by between two
 // points of the lattice without any near it, its ends in the cells before and behind are joined with a
 // chord past the empty cell: that costs half as much again, at about one rotation in eighty.
