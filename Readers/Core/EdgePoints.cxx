@@ -96,11 +96,9 @@ float NoiseScale(float grey)
   return NoiseScaleNumerator / (grey + NoiseScaleOffset);
 }
 
-// Vertex of the parabola through the slopes at -1, 0 and 1, which are given squared, the middle one
-// being the largest. For a step over square pixels and central differences it is exact.
-float PeakOffset(float before, float peak, float after)
+// Vertex of the parabola through the slopes at -1, 0 and 1, the middle one being the largest. For a step over square pixels and central differences it is exact.
+float PeakOffset(float a, float b, float c)
 {
-  const float a = std::sqrt(before), b = std::sqrt(peak), c = std::sqrt(after);
   const float curvature = a - 2 * b + c;
   return curvature < 0 ? 0.5f * (a - c) / curvature : 0.0f;
 }
@@ -116,9 +114,14 @@ struct PeakRow
     const bool alongX = std::abs(gx) >= std::abs(gy);
     const float before = alongX ? this->row.squared[x - 1] : this->above.squared[x];
     const float after = alongX ? this->row.squared[x + 1] : this->below.squared[x];
-    const float offset = PeakOffset(before, slope, after);
-    return { x + (alongX ? offset : 0), y + (alongX ? 0 : offset), gx, gy,
-      std::sqrt(slope * NoiseScale(this->row.grey[x])) };
+    // All roots at once.
+    std::array<float, 4> roots{ before, slope, after, slope * NoiseScale(this->row.grey[x]) };
+    for (float& root : roots)
+    {
+      root = std::sqrt(root);
+    }
+    const float offset = PeakOffset(roots[0], roots[1], roots[2]);
+    return { x + (alongX ? offset : 0), y + (alongX ? 0 : offset), gx, gy, roots[3] };
   }
 };
 

@@ -167,9 +167,10 @@ private:
     }
   }
 
-  // And that of one of its tokens.
-  void FindLines(int token)
+  // And that of one of its tokens. Returns in how many images it can be looked for.
+  int FindLines(int token)
   {
+    int usable = 0;
     const int k = token - this->FirstRay;
     for (std::size_t i = 0; i < this->Images.size(); ++i)
     {
@@ -181,7 +182,9 @@ private:
       line.across =
         Eigen::Vector2f(static_cast<float>(rays.acrossU[k]), static_cast<float>(rays.acrossV[k]));
       line.usable = line.ray.scale > 0 && std::abs(line.tangent.y()) >= this->MinimumSine;
+      usable += line.usable;
     }
+    return usable;
   }
 
   // The edges on the epipolar lines of a token which an edge of another image may confirm. Few of
@@ -444,10 +447,15 @@ private:
   {
     TokenStates& states = this->TokenStatesOf[token - this->FirstRay];
     this->Candidates.clear();
-    this->FindLines(token);
     this->Leads.clear();
     this->AddLeads(neighbor);
+    const int usable = this->FindLines(token);
     this->FollowLeads(token);
+    if (usable < 2) // one image confirms nothing
+    {
+      states = this->FindHypotheses(token);
+      return;
+    }
     std::fill(this->Continued.begin(), this->Continued.end(), 0);
     constexpr int longest = 32; // without a search, tokens
     if (!this->Candidates.empty() && token - this->LastSearched < longest)
@@ -461,7 +469,7 @@ private:
       this->States.resize(states.begin);
       this->Scratch.resize(support);
     }
-    else
+    if (std::find(this->Continued.begin(), this->Continued.end(), 1) == this->Continued.end())
     {
       this->LastSearched = token;
     }
