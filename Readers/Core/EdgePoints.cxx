@@ -17,42 +17,79 @@ namespace freespace
 namespace
 {
 
+// The grey levels of an image, row after row. Only the last ones are kept.
+class GreyRows
+{
+public:
+  // The rows that are asked for at a time are `most` neighbours.
+  GreyRows(const cv::Mat& image, int most)
+    : Image(image)
+    , Strip(std::max(16, most))
+  {
+    if (image.channels() == 3)
+    {
+      this->Grey.create(Strips * this->Strip, image.cols, CV_8U);
+    }
+  }
+
+  const std::uint8_t* At(int y)
+  {
+    if (this->Image.channels() != 3)
+    {
+      return this->Image.ptr<std::uint8_t>(y);
+    }
+    while (y >= this->Converted)
+    {
+      const int end = std::min(this->Converted + this->Strip, this->Image.rows);
+      const int place = this->PlaceOf(this->Converted);
+      cv::Mat strip = this->Grey.rowRange(place, place + end - this->Converted);
+      cv::cvtColor(this->Image.rowRange(this->Converted, end), strip, cv::COLOR_BGR2GRAY);
+      this->Converted = end;
+    }
+    return this->Grey.ptr<std::uint8_t>(this->PlaceOf(y));
+  }
+
+private:
+  static constexpr int Strips = 3; // the one at hand and those of the rows above and below
+
+  int PlaceOf(int y) const { return y % (Strips * this->Strip); }
+
+  const cv::Mat& Image;
+  int Strip; // rows
+  cv::Mat Grey;
+  int Converted = 0; // rows
+};
+
 // The grey levels of an image, smoothed by a Gaussian, one row at a time.
 class SmoothRows
 {
 public:
   SmoothRows(const cv::Mat& image, double sigma)
     : Radius(static_cast<int>(std::ceil(2.5 * sigma)))
+    , Width(image.cols)
+    , Last(image.rows - 1)
+    , Grey(image, 2 * this->Radius + 1)
   {
-    if (image.channels() == 3)
-    {
-      cv::cvtColor(image, this->Grey, cv::COLOR_BGR2GRAY);
-    }
-    else
-    {
-      this->Grey = image;
-    }
     const cv::Mat kernel = cv::getGaussianKernel(2 * this->Radius + 1, sigma, CV_32F);
     this->Weights.assign(kernel.ptr<float>(this->Radius), kernel.ptr<float>(0) + kernel.total());
     this->Rows.resize(kernel.total());
-    this->Work.resize(this->Grey.cols + 2 * this->Radius);
+    this->Work.resize(this->Width + 2 * this->Radius);
   }
 
-  // Beyond the border, the image goes on as it ends.
+  // Row after row, from the first one on. Beyond the border, the image goes on as it ends.
   void Compute(int row, float* smooth)
   {
     for (int k = -this->Radius; k <= this->Radius; ++k)
     {
-      this->Rows[k + this->Radius] =
-        this->Grey.ptr<std::uint8_t>(std::clamp(row + k, 0, this->Grey.rows - 1));
+      this->Rows[k + this->Radius] = this->Grey.At(std::clamp(row + k, 0, this->Last));
     }
-    SmoothRow(this->Rows.data(), this->Weights.data(), this->Radius, this->Grey.cols,
-      this->Work.data(), smooth);
+    SmoothRow(this->Rows.data(), this->Weights.data(), this->Radius, this->Width, this->Work.data(),
+      smooth);
   }
 
 private:
-  int Radius;
-  cv::Mat Grey;
+  int Radius, Width, Last;
+  GreyRows Grey;
   std::vector<float> Weights; // from the middle outwards
   std::vector<const std::uint8_t*> Rows;
   std::vector<float> Work;
