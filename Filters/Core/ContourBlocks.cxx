@@ -210,7 +210,7 @@ bool ContourBlocks::IsThroughFace(
   const int axis = face.axis;
   const double from = lower[axis] - face.low[axis], to = upper[axis] - face.low[axis];
   const Vector3d through = lower + from / (from - to) * (upper - lower);
-  const double room = SharpClearance * this->lattice.spacing;
+  const double room = 0.5 * SharpClearance * this->lattice.spacing;
   bool isInside = from * to < 0;
   for (int across : { (axis + 1) % 3, (axis + 2) % 3 })
   {

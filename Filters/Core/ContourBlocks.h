@@ -102,12 +102,16 @@ public:
   /// Takes the blocks of all regions, which stay where they are.
   void Add(const std::vector<Region>& regions);
 
-  /// Sharp vertices keep so far from the sides of their cells, and new edges from those of the faces,
-  /// in cells.
+  /// Sharp vertices keep so far from the sides of their cells, and new edges half as far from those of
+  /// the faces, in cells.
   static constexpr double SharpClearance = 0.01;
 
   /// The field must show an edge or corner so close to where the planes say that it is, in cells.
   static constexpr double FeatureReach = 0.05;
+
+  /// A sharp vertex may be so far off the surface, in cells: roughness that the smoothed normals leave
+  /// out, but no other surface.
+  static constexpr double VertexSlack = 0.5;
 
   /// No vertex.
   static constexpr std::size_t Missing = static_cast<std::size_t>(-1);
@@ -242,8 +246,8 @@ public:
   bool FindSharpFace(
     const BlockPlace& place, std::size_t sharp, int face, SharpFace& sharpFace) const;
 
-  /// Whether an edge between two sharp vertices passes through the face between their cells, well off
-  /// its border: then the new triangles stay within the two cells, where nothing else is on that face.
+  /// Whether an edge between two sharp vertices passes through the face between their cells, off its
+  /// border: then the new triangles stay within the two cells, where nothing else is on that face.
   bool IsThroughFace(
     const Eigen::Vector3d& own, const Eigen::Vector3d& other, const SharpFace& face) const;
 

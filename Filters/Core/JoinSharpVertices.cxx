@@ -401,12 +401,12 @@ private:
     return this->KeyOf(lower) | static_cast<std::uint64_t>(1 + (face >> 1)) << 60;
   }
 
-  /// Whether an edge between two sharp vertices s and t, in place of the one from u to v, lies in the
-  /// planes at both, and the triangles (s, u, t) and (t, v, s) look to their free sides.
+  /// Whether an edge between two sharp vertices s and t, in place of the one from u to v, lies near
+  /// the planes at both, and the triangles (s, u, t) and (t, v, s) look to their free sides.
   bool IsOnSurface(
     const Vector3d& s, const Vector3d& t, const BlockVertex& u, const BlockVertex& v) const
   {
-    const double reach = ContourBlocks::FeatureReach * this->Blocks.lattice.spacing;
+    const double reach = ContourBlocks::VertexSlack * this->Blocks.lattice.spacing;
     const auto isIn = [&](const SurfacePlane& plane, double side)
     {
       const Vector3d turned = side * (t - s).cross(plane.point - s);

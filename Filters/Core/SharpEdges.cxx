@@ -333,7 +333,7 @@ private:
   bool PutOnSurface(Vector3d& position, const Vector3d& up, const AlignedBox3d& inner,
     const std::function<bool(const Vector3d&)>& isFree) const
   {
-    const Vector3d slack = VertexSlack * this->Blocks.lattice.spacing * up;
+    const Vector3d slack = ContourBlocks::VertexSlack * this->Blocks.lattice.spacing * up;
     return (isFree(position + slack) && !isFree(position - slack)) ||
       MoveToBoundary(position, up, inner, isFree);
   }
@@ -490,10 +490,6 @@ private:
 
   /// Over which normals are smoothed before they tell of sharp edges, in cells.
   static constexpr double SmoothingRadius = 1.5;
-
-  /// A sharp vertex may be so far off the surface, in cells: roughness that the smoothed normals leave
-  /// out, but no other surface.
-  static constexpr double VertexSlack = 0.5;
 
   const BoundedField& Field;
   ContourBlocks& Blocks;
