@@ -3,7 +3,9 @@
 
 #include "AlgorithmProgress.h"
 #include "FeatureSupport.h"
+#include "SMPParallelFor.h"
 #include "ViewBlocks.h"
+#include "WatchedFor.h"
 
 #include <vtkCellArray.h>
 #include <vtkFieldData.h>
@@ -14,6 +16,10 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
 
 vtkStandardNewMacro(vtkFeatureSupportFilter);
 
@@ -88,14 +94,19 @@ int vtkFeatureSupportFilter::RequestData(
   {
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    std::vector<double> work;
+    std::transform(views.begin(), views.end(), std::back_inserter(work),
+      [](const freespace::View& view) { return static_cast<double>(view.points.size()); });
+    std::vector<std::vector<int>> support(views.size());
+    freespace::WatchedFor(work, freespace::SMPParallelFor, progress,
+      [&](std::size_t i, const freespace::StopFlag&)
+      { support[i] = freespace::CountSupport(views[i], options); });
     for (std::size_t i = 0; i < views.size(); ++i)
     {
-      progress(static_cast<double>(i) / views.size());
       const unsigned int index = static_cast<unsigned int>(i);
-      const std::vector<int> support = freespace::CountSupport(views[i], options);
       freespace::SetNamedBlock(output, index, views[i].name,
-        KeepSupported(vtkPolyData::SafeDownCast(input->GetBlock(index)), support,
-          this->MinimumNeighbors));
+        KeepSupported(
+          vtkPolyData::SafeDownCast(input->GetBlock(index)), support[i], this->MinimumNeighbors));
     }
   }
   catch (...)

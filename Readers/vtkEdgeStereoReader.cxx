@@ -8,6 +8,7 @@
 #include "ProposeClusters.h"
 #include "SMPParallelFor.h"
 #include "ViewBlocks.h"
+#include "WatchedFor.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -79,52 +80,33 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
   return static_cast<long long>(time);
 }
 
-// As many clusters at a time as there are threads: this bounds the memory and lets the calling
-// thread report progress in between. The first cluster in the scene's order that fails decides the
-// error; those after the needed ones may fail, and then give no view.
+// As many clusters at a time as there are threads: this bounds the memory. The first cluster in the
+// scene's order that fails decides the error; those after the needed ones may fail, and then give no view.
 std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene, std::size_t needed,
   const freespace::EdgeStereoOptions& options, const freespace::Progress& progress)
 {
   const std::vector<freespace::CalibratedImage> images = freespace::ReadSceneImages(scene);
   const SingleThreadedOpenCV guard;
-  const std::size_t count = scene.clusters.size();
-  const std::size_t batch =
-    static_cast<std::size_t>(std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads()));
-  std::vector<freespace::EdgeView> views(count);
-  for (std::size_t first = 0; first < count; first += batch)
-  {
-    progress(static_cast<double>(first) / count);
-    const std::size_t size = std::min(batch, count - first);
-    std::vector<std::exception_ptr> errors(size);
-    freespace::SMPParallelFor(size,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          try
-          {
-            views[first + i] =
-              freespace::FindFeatures(scene, images, scene.clusters[first + i], options);
-          }
-          catch (const freespace::Error&)
-          {
-            errors[i] = first + i < needed ? std::current_exception() : nullptr;
-          }
-          catch (...)
-          {
-            errors[i] = std::current_exception();
-          }
-        }
-      });
-    for (const std::exception_ptr& error : errors)
+  std::vector<freespace::EdgeView> views(scene.clusters.size());
+  freespace::WatchedFor(views.size(), freespace::SMPParallelFor, progress,
+    [&](std::size_t i, const freespace::StopFlag& stop)
     {
-      if (error)
+      try
       {
-        std::rethrow_exception(error);
+        views[i] = freespace::FindFeatures(scene, images, scene.clusters[i], options, stop);
       }
-    }
-  }
-  progress(1.0);
+      catch (const freespace::Aborted&)
+      {
+        throw;
+      }
+      catch (const freespace::Error&)
+      {
+        if (i < needed)
+        {
+          throw;
+        }
+      }
+    });
   const auto isEmpty = [](const freespace::EdgeView& view) { return view.points.empty(); };
   views.erase(std::remove_if(views.begin(), views.end(), isEmpty), views.end());
   return views;

@@ -170,7 +170,7 @@ void EdgeStereoOptions::Check() const
 }
 
 EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, const EdgeStereoOptions& options)
+  const Cluster& cluster, const EdgeStereoOptions& options, const StopFlag& stop)
 {
   options.Check();
   const CalibratedImage& referenceImage = FindImage(images, cluster.reference, cluster);
@@ -183,9 +183,11 @@ EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& im
   std::vector<ImageEdges> others;
   for (const std::string& file : OtherImages(cluster))
   {
+    ThrowIfStopped(stop);
     others.push_back(EdgesOfImage(scene, FindImage(images, file, cluster), options.edges));
   }
 
+  ThrowIfStopped(stop);
   EdgeView view;
   view.name = cluster.name;
   view.imageFile = cluster.reference;

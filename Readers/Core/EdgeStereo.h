@@ -4,6 +4,7 @@
 
 #include "EdgeTokens.h"
 #include "Scene.h"
+#include "StopFlag.h"
 #include "TrinocularMatcher.h"
 #include "View.h"
 
@@ -30,8 +31,9 @@ struct EdgeStereoOptions
 /// Loads the cluster's images from the scene's folder. `images` is what ReadSceneImages returned.
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
 /// than its camera's, an unknown image, a triplet without overlap, fewer than three features.
+/// Throws Aborted when the flag is set, at the next image.
 EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, const EdgeStereoOptions& options);
+  const Cluster& cluster, const EdgeStereoOptions& options, const StopFlag& stop = NeverStopped);
 
 }
 

@@ -22,6 +22,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <sstream>
 
 using namespace freespace;
@@ -225,6 +227,41 @@ TEST(EdgeStereoReader, AbortLeavesNothing)
     { static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1); });
   reader->AddObserver(vtkCommand::ProgressEvent, abort);
   EXPECT_EQ(Complaint(reader), "");
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+}
+
+TEST(EdgeStereoReader, ProgressMovesWhileImagesAreMatched)
+{
+  const SquaresScene scene(3);
+  vtkNew<vtkEdgeStereoReader> reader;
+  reader->SetFileName(scene.File);
+  std::vector<double> seen;
+  vtkNew<vtkCallbackCommand> see;
+  see->SetClientData(&seen);
+  see->SetCallback([](vtkObject*, unsigned long, void* list, void* fraction)
+    { static_cast<std::vector<double>*>(list)->push_back(*static_cast<double*>(fraction)); });
+  reader->AddObserver(vtkCommand::ProgressEvent, see);
+  EXPECT_EQ(Complaint(reader), "");
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.back(), 1.0);
+
+  // At the second event the matching has begun.
+  int events = 0;
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetClientData(&events);
+  abort->SetCallback(
+    [](vtkObject* caller, unsigned long, void* count, void*)
+    {
+      if (++*static_cast<int*>(count) == 2)
+      {
+        static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+      }
+    });
+  reader->AddObserver(vtkCommand::ProgressEvent, abort);
+  reader->Modified();
+  EXPECT_EQ(Complaint(reader), "");
+  EXPECT_EQ(events, 2);
   EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
 }
 
