@@ -67,6 +67,20 @@ class TestQueries(unittest.TestCase):
             queries.spheres_free(self.phi, centers, [.1, .49, .51]), [True, True, False])
         np.testing.assert_array_equal(queries.spheres_free(self.phi, centers, .6), [False] * 3)
 
+    def test_an_observer_sees_progress_and_stops(self):
+        seen = []
+        tag = self.phi.AddObserver(
+            'ProgressEvent', lambda phi, event: (seen.append(event), phi.SetAbortExecute(1)))
+        self.phi.Update()
+        self.assertEqual(len(seen), 1)
+        for stopped in (queries.points_free(self.phi, self.points),
+                        queries.first_blocked(self.phi, self.first, self.last),
+                        queries.spheres_free(self.phi, self.points, .1)):
+            self.assertEqual(stopped.shape, (0,))
+        self.assertEqual(len(seen), 4)
+        self.phi.RemoveObserver(tag)
+        self.test_points()
+
     def test_program(self):
         with tempfile.TemporaryDirectory() as folder:
             writer = vtkViewBlocksWriter()

@@ -5,6 +5,8 @@
     queries.points_free(phi, points)            # (n,) bool
     queries.first_blocked(phi, first, last)     # (n,) fraction of each segment, inf where all is free
     queries.spheres_free(phi, centers, radii)   # (n,) bool
+
+A batch that an observer of the union's ProgressEvent stopped, by SetAbortExecute, is empty.
 """
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -20,9 +22,12 @@ def points_free(phi, points):
 
 def first_blocked(phi, first, last):
     """Where each segment from first (n, 3) to last (n, 3) first leaves free space, as a fraction."""
+    first, last = _points(first), _points(last)
+    if first.GetNumberOfPoints() != last.GetNumberOfPoints():
+        raise ValueError(
+            f'{first.GetNumberOfPoints()} first points but {last.GetNumberOfPoints()} last points')
     fractions = vtkDoubleArray()
-    if not phi.FirstBlocked(_points(first), _points(last), fractions):
-        raise ValueError(f'{len(first)} first points but {len(last)} last points')
+    phi.FirstBlocked(first, last, fractions)
     return vtk_to_numpy(fractions)
 
 
