@@ -419,6 +419,7 @@ void vtkFreespaceUnion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
+  os << indent << "AbortExecute: " << this->AbortExecute << "\n";
   os << indent << "Maps: " << this->Inner->Maps.Get() << "\n";
   os << indent << "InputConnection: " << this->Inner->Connection.Get() << "\n";
 }

@@ -49,7 +49,8 @@ public:
   ///@{
   /**
    * Side of a texel in the unit of the surface. Default 0: the median size of the photographs' pixels on
-   * the surface. It is enlarged where the texture would exceed LargestTexture.
+   * the surface, or larger where the texture would exceed LargestTexture. One that is given and too small for
+   * that is an error that tells what fits.
    */
   vtkSetClampMacro(TexelSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TexelSize, double);

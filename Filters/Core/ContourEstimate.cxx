@@ -5,7 +5,7 @@
 #include "Error.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -47,11 +47,7 @@ std::vector<ScopedRange> Thin(std::vector<ScopedRange> boxes, std::size_t wanted
 
 std::string Size(double megabytes)
 {
-  char text[32];
-  const bool isLarge = megabytes >= 1024;
-  std::snprintf(
-    text, sizeof text, "%.*f %s", isLarge, megabytes / (isLarge ? 1024 : 1), isLarge ? "GB" : "MB");
-  return text;
+  return std::to_string(std::llround(megabytes)) + " MiB"; // as the limit is given
 }
 
 }

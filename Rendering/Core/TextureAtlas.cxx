@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <sstream>
 #include <unordered_map>
 
 namespace freespace
@@ -543,6 +545,28 @@ void TextureAtlasOptions::Check() const
   }
 }
 
+namespace
+{
+
+// Charts do not fill the atlas: what is asked for is refused where it cannot fit, and otherwise may become
+// a little larger.
+void CheckTexel(const TextureAtlasOptions& options, double seenArea)
+{
+  constexpr double filled = 0.7; // of the atlas, about
+  const double side = std::sqrt(seenArea / filled);
+  if (options.texel > 0 && std::sqrt(seenArea) / options.texel > options.largest)
+  {
+    std::ostringstream fault;
+    fault << std::setprecision(3) << "Texels of side " << options.texel
+          << " make a texture of about " << side / options.texel << " x " << side / options.texel
+          << ", and its longest side may be " << options.largest << ": texels of side "
+          << side / options.largest << " fit.";
+    throw Error(fault.str());
+  }
+}
+
+}
+
 TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
   const TextureAtlasOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
@@ -557,6 +581,7 @@ TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
   {
     seenArea += seen[t] ? geometry.areas[t] : 0;
   }
+  CheckTexel(options, seenArea);
   // Not so small that the charts could not fit, which would only cost time; 1 if there are none.
   const double smallest = std::sqrt(seenArea) / options.largest;
   atlas.texel = std::max(atlas.texel, smallest > 0 ? smallest : 1.0 * (atlas.texel == 0));

@@ -10,8 +10,9 @@ namespace freespace
 
 struct TextureAtlasOptions
 {
-  double texel = 0;   ///< side of a texel on the surface; 0 takes the pixels of the photographs
-  int largest = 8192; ///< side of the atlas, texels; larger texels are taken where it would not do
+  double texel = 0;   ///< side of a texel on the surface, refused where it would not do; 0 takes the
+                      ///< pixels of the photographs, or larger ones
+  int largest = 8192; ///< side of the atlas, texels
   int gutter = 2;     ///< texels around each chart that repeat its rim
   Eigen::Vector3d unseen = Eigen::Vector3d(178, 178, 178); ///< red, green, blue
 

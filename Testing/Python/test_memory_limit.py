@@ -44,8 +44,8 @@ class TestMemoryLimit(unittest.TestCase):
                 result = self.run_program('-q', 'contour', 'maps.vtm', '--cells', cells, '--memory-limit', limit,
                                           '-o', name)
                 self.assertEqual(result.returncode, 1)
-                self.assertRegex(result.stderr, r'^freespace: A surface of \d+ cells takes about [\d.]+ .B .* limit'
-                                                r' is [\d.]+ .B: [^\n]*\n$')
+                self.assertRegex(result.stderr, r'^freespace: A surface of \d+ cells takes about \d+ MiB .* limit'
+                                                r' is \d+ MiB: [^\n]*\n$')
                 self.assertFalse((self.folder / name).exists())
 
     def test_limit_that_is_none(self):

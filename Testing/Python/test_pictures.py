@@ -362,6 +362,13 @@ class TestTexture(WithScene):
         header = (self.folder / 'model.ply').read_bytes().split(b'end_header')[0]
         self.assertIn(b'property uchar red', header)
 
+    def test_texture_too_large(self):
+        self.fails('texels of side', 'texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'model.glb', '--texel', 1e-9)
+
+    def test_scene_of_another_place(self):
+        write_triangle(self.folder / 'far.ply', shift=1e4)
+        self.fails('another place', 'texture', 'far.ply', '--scene', 'scene.json', '-o', 'model.glb')
+
     def test_texel_is_as_asked(self):
         log = self.succeed('texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'model.glb', '--texel', 0.004).stderr
         self.assertIn('texels of side 0.004', log)

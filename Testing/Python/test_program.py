@@ -128,10 +128,19 @@ class TestBadInput(WithFolder):
         self.expect_error(mentions, 'stereo', scene, '-o', 'features.vtm')
 
     def test_config_that_is_none(self):
-        for text, mentions in (('', 'run.ini'), ('[reconstruct]\nbogus=1\n', 'bogus')):
+        for text, mentions in (('', ''), ('[reconstruct]\nbogus=1\n', "'reconstruct.bogus'"), ('[bogus]\na=1\n', "'bogus'"),
+                               ('nonsense', "'nonsense'"),
+                               ('[contour]\nmaps="a"\noutput="b"\ncells=many\n', '--cells'), ('threads=-4\n', '--threads')):
             with self.subTest(text=text):
                 (self.folder / 'run.ini').write_text(text)
+                self.expect_error('freespace: run.ini', '--config', 'run.ini')
                 self.expect_error(mentions, '--config', 'run.ini')
+        for name in ('none.ini', '.'):
+            result = run('--config', name, cwd=self.folder)
+            self.assertEqual(result.stderr.count('freespace'), 1, result.stderr)
+            self.assertIn(name, result.stderr)
+        (self.folder / 'run.ini').write_text('[contour]\ncells=40\n')
+        self.expect_error('freespace: --cells', '--config', 'run.ini', 'contour', 'a', '-o', 'b', '--cells', 'many')
 
     def test_unknown_command(self):
         self.expect_error('foo', 'foo')
@@ -148,6 +157,22 @@ class TestBadInput(WithFolder):
         for picture in ('mesh.jpg', 'nowhere/mesh.png'):
             with self.subTest(picture=picture):
                 self.expect_error(picture, 'reconstruct', scene, '-o', 'mesh.ply', '--picture', picture)
+
+    def test_depths_the_wrong_way_round(self):
+        self.expect_error('--max-depth 1', 'stereo', self.small_scene(), '-o', 'out.vtm', '--min-depth', 5, '--max-depth', 1)
+
+    def test_maps_in_place_of_features(self):
+        self.succeed('stereo', self.small_scene(), '-o', 'features.vtm')
+        self.succeed('triangulate', 'features.vtm', '-o', 'maps.vtm')
+        self.expect_error('maps.vtm', 'triangulate', 'maps.vtm', '-o', 'out.vtm')
+        self.expect_error('maps.vtm', 'report', 'scene.json', '--features', 'maps.vtm', '-o', 'out')
+
+    def test_densify_without_photographs(self):
+        model = Path(os.environ.get('FREESPACE_SHARED', ROOT.parent / 'shared')) / 'data' / 'buddha' / 'sparse'
+        if not model.is_dir():
+            self.skipTest('the shared data are not here')
+        (self.folder / 'none').mkdir()
+        self.expect_error('none', 'reconstruct', model, '--densify', 'none', '-o', 'out.ply')
 
     def test_missing_scene(self):
         self.stereo_fails('none.json', 'none.json')

@@ -4,7 +4,9 @@
 #include "Error.h"
 #include "Session.h"
 #include "Stages.h"
+#include "ViewBlocks.h"
 
+#include <vtkCameraReader.h>
 #include <vtkClusterProposal.h>
 #include <vtkMergeViewsFilter.h>
 #include <vtkMultiBlockDataSet.h>
@@ -48,6 +50,23 @@ private:
   std::filesystem::path Folder;
 };
 
+// Whether any of the model's photographs is there.
+bool HasPhotographs(Session& session, const std::string& model, const std::string& images)
+{
+  vtkNew<vtkCameraReader> cameras;
+  cameras->SetFileName(model);
+  session.Run(cameras, "cameras");
+  vtkMultiBlockDataSet* views = cameras->GetOutput();
+  for (unsigned int i = 0; i < views->GetNumberOfBlocks(); ++i)
+  {
+    if (std::filesystem::is_regular_file(std::filesystem::path(images) / BlockName(views, i)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 }
 
 void DensifyStage::AddOptions(CLI::App& command)
@@ -63,6 +82,11 @@ void DensifyStage::AddOptions(CLI::App& command)
 vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const std::string& model,
   vtkMultiBlockDataSet* sparse, const StereoStage& stereo) const
 {
+  if (!HasPhotographs(session, model, this->Images))
+  {
+    throw Error("Cannot densify: the folder " + this->Images + " has none of the photographs of " +
+      model + ".");
+  }
   const ScratchFolder scratch;
   vtkNew<vtkClusterProposal> proposal;
   proposal->SetModel(model);

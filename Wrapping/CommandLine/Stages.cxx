@@ -26,6 +26,8 @@
 #include <vtkViewBlocksReader.h>
 #include <vtkViewBlocksWriter.h>
 
+#include <sstream>
+
 #include <unistd.h>
 
 namespace freespace
@@ -45,6 +47,17 @@ double ShareOfMemory()
 {
   const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
   return 0.75 * pages * sysconf(_SC_PAGESIZE) / (1024 * 1024);
+}
+
+vtkIdType CountTriangles(vtkMultiBlockDataSet* views)
+{
+  vtkIdType triangles = 0;
+  for (unsigned int i = 0; i < views->GetNumberOfBlocks(); ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(views->GetBlock(i));
+    triangles += view ? view->GetNumberOfPolys() : 0;
+  }
+  return triangles;
 }
 
 // Whether features are points of a structure-from-motion model rather than of edges.
@@ -89,6 +102,13 @@ void StereoStage::AddOptions(CLI::App& command)
 vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   Session& session, const std::string& scene) const
 {
+  if (this->MaximumDepth > 0 && this->MinimumDepth >= this->MaximumDepth)
+  {
+    std::ostringstream fault;
+    fault << "The nearest depth, --min-depth " << this->MinimumDepth
+          << ", must be less than the farthest, --max-depth " << this->MaximumDepth << ".";
+    throw Error(fault.str());
+  }
   vtkNew<vtkEdgeStereoReader> stereo;
   stereo->SetFileName(scene);
   stereo->SetMinimumDepth(this->MinimumDepth);
@@ -340,16 +360,21 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadViews(Session& session, const std::str
   return reader->GetOutput();
 }
 
+vtkSmartPointer<vtkMultiBlockDataSet> ReadFeatures(Session& session, const std::string& fileName)
+{
+  vtkSmartPointer<vtkMultiBlockDataSet> features = ReadViews(session, fileName);
+  if (CountTriangles(features) > 0)
+  {
+    throw Error("'" + fileName +
+      "' holds disparity maps, which are triangulated already: 'freespace contour' takes them.");
+  }
+  return features;
+}
+
 vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::string& fileName)
 {
   vtkSmartPointer<vtkMultiBlockDataSet> maps = ReadViews(session, fileName);
-  vtkIdType triangles = 0;
-  for (unsigned int i = 0; i < maps->GetNumberOfBlocks(); ++i)
-  {
-    auto* view = vtkPolyData::SafeDownCast(maps->GetBlock(i));
-    triangles += view ? view->GetNumberOfPolys() : 0;
-  }
-  if (triangles == 0 && maps->GetNumberOfPoints() > 0)
+  if (CountTriangles(maps) == 0 && maps->GetNumberOfPoints() > 0)
   {
     throw Error("'" + fileName +
       "' holds features, not disparity maps: run 'freespace triangulate' on it first.");

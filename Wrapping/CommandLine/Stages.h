@@ -89,6 +89,9 @@ private:
 /// Reads a .vtm of features or disparity maps.
 vtkSmartPointer<vtkMultiBlockDataSet> ReadViews(Session& session, const std::string& fileName);
 
+/// The same for what 'stereo' or 'sparse' wrote. Throws Error when they are triangulated already.
+vtkSmartPointer<vtkMultiBlockDataSet> ReadFeatures(Session& session, const std::string& fileName);
+
 /// The same for what 'triangulate' wrote. Throws Error when there are features but no triangles.
 vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::string& fileName);
 

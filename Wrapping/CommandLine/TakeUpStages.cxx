@@ -121,7 +121,7 @@ void TakeUpStages::ReadGiven(Session& session)
 {
   if (!this->GivenFeatures.empty())
   {
-    this->FoundFeatures = ReadViews(session, this->GivenFeatures);
+    this->FoundFeatures = ReadFeatures(session, this->GivenFeatures);
   }
   if (!this->GivenMaps.empty())
   {

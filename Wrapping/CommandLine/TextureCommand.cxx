@@ -71,6 +71,11 @@ void Texture(Session& session, const Settings& settings)
   baker->SetTexelSize(settings.texel);
   baker->SetLargestTexture(settings.largest);
   session.Run(baker, "texture");
+  if (baker->GetNumberOfCharts() == 0)
+  {
+    throw Error(
+      "No photograph of " + settings.scene + " sees the surface: it is of another place.");
+  }
   const int* size = baker->GetTexture()->GetDimensions();
   std::ostringstream told;
   told << baker->GetNumberOfCharts() << " charts, " << size[0] << " x " << size[1]

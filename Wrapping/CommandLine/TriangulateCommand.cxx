@@ -39,7 +39,7 @@ void AddTriangulateCommand(CLI::App& program, Session& session)
   command->callback(session.Later(
     [settings, &session]()
     {
-      const auto features = ReadViews(session, settings->features);
+      const auto features = ReadFeatures(session, settings->features);
       WriteViews(session, settings->triangulate.Run(session, features), settings->output);
     }));
 }

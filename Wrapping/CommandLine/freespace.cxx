@@ -73,13 +73,62 @@ void LetConfigRunCommands(CLI::App& program, int argc, char* argv[])
   }
 }
 
-// One sentence for what is wrong with the command line.
-std::string Fault(const CLI::App& program, const CLI::ParseError& error)
+// What is wrong with the file of options.
+std::string ConfigFault(const std::string& config, const std::string& what)
 {
-  const std::string config = program.get_config_ptr()->as<std::string>();
+  const std::string beforeItem = "INI was not able to parse ";
+  const std::size_t at = what.find(beforeItem);
+  std::string item = at == std::string::npos ? "" : what.substr(at + beforeItem.size());
+  item = item.substr(0, item.find(".++")); // how CLI11 marks a section's beginning
+  const bool isText =
+    std::all_of(item.begin(), item.end(), [](unsigned char c) { return c > 31 && c < 127; });
+  return item.empty() || !isText
+    ? config + " is not a file of options that --save-config wrote."
+    : config + " names an option or a command that there is not: '" + item + "'.";
+}
+
+// Whether the option that an error begins with stands on the command line, and not in the file of options.
+bool IsGivenByHand(const std::string& what, const std::vector<std::string>& words)
+{
+  const std::string option = what.substr(0, what.find(':'));
+  return std::any_of(words.begin(), words.end(),
+    [&option](const std::string& word) { return word.substr(0, word.find('=')) == option; });
+}
+
+// The file of options; empty without one, also where that is no file.
+std::string ConfigFile(const CLI::App& program)
+{
+  try
+  {
+    return program.get_config_ptr()->as<std::string>();
+  }
+  catch (const CLI::ParseError&)
+  {
+    return "";
+  }
+}
+
+// One sentence for what is wrong with the command line, or the file of options that it names.
+std::string Fault(
+  const CLI::App& program, const CLI::ParseError& error, const std::vector<std::string>& words)
+{
+  const std::string config = ConfigFile(program);
+  std::string what = error.what();
+  const std::string own = program.get_name() + ": "; // CLI11 says it, too
+  what = what.rfind(own, 0) == 0 ? what.substr(own.size()) : what;
+  if (dynamic_cast<const CLI::ConfigError*>(&error))
+  {
+    return ConfigFault(config, what);
+  }
+  const bool isOfValue = dynamic_cast<const CLI::ValidationError*>(&error) ||
+    dynamic_cast<const CLI::ConversionError*>(&error);
+  if (isOfValue && what.rfind("--", 0) == 0 && !config.empty() && !IsGivenByHand(what, words))
+  {
+    return config + ": " + what;
+  }
   if (!program.get_subcommands().empty())
   {
-    return error.what();
+    return what;
   }
   const std::vector<std::string> unknown = program.remaining();
   if (!unknown.empty() && unknown[0][0] != '-')
@@ -94,7 +143,7 @@ std::string Fault(const CLI::App& program, const CLI::ParseError& error)
   {
     return "Which command? 'freespace --help' lists them.";
   }
-  return error.what();
+  return what;
 }
 
 int Run(int argc, char* argv[])
@@ -130,7 +179,7 @@ int Run(int argc, char* argv[])
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "freespace: " << Fault(program, error) << "\n";
+    std::cerr << "freespace: " << Fault(program, error, { argv + 1, argv + argc }) << "\n";
     return misused;
   }
   if (!configToSave.empty() && freespace::LaunchedRank() == 0)
