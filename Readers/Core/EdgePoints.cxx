@@ -133,7 +133,8 @@ float NoiseScale(float grey)
   return NoiseScaleNumerator / (grey + NoiseScaleOffset);
 }
 
-// Vertex of the parabola through the slopes at -1, 0 and 1, the middle one being the largest. For a step over square pixels and central differences it is exact.
+// Vertex of the parabola through the slopes at -1, 0 and 1, the middle one being the largest. For a
+// step over square pixels and central differences it is exact.
 float PeakOffset(float a, float b, float c)
 {
   const float curvature = a - 2 * b + c;

@@ -255,8 +255,8 @@ private:
       });
   }
 
-  // The support of a neighbour's hypotheses, which leads to that of the tokens beside it. What leads
-  // along the same edge is taken once.
+  // The support of a neighbour's hypotheses, which leads to that of the tokens beside it. What
+  // leads along the same edge is taken once.
   void AddLeads(const TokenStates& states)
   {
     constexpr float margin = 1.0f; // what is worse by more than that is not chosen along the chain
