@@ -343,6 +343,23 @@ bool Pack(
   return atlas.width <= options.largest && atlas.height <= options.largest;
 }
 
+// Charts keep a few texels each, however coarse these are: too many never fit.
+void CheckLargest(
+  std::vector<Chart>& charts, const TextureAtlasOptions& options, TextureAtlas& atlas)
+{
+  double extent = 0;
+  for (const Chart& chart : charts)
+  {
+    extent = std::max(extent, (chart.high - chart.low).maxCoeff());
+  }
+  if (!charts.empty() && !Pack(charts, extent > 0 ? 2 * extent : 1.0, options, atlas))
+  {
+    throw Error("The surface falls into " + std::to_string(charts.size()) +
+      " charts, which no texture with a longest side of " + std::to_string(options.largest) +
+      " holds.");
+  }
+}
+
 /// Colours the texels of a packed atlas.
 class Painter
 {
@@ -587,6 +604,7 @@ TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
   atlas.texel = std::max(atlas.texel, smallest > 0 ? smallest : 1.0 * (atlas.texel == 0));
   std::vector<Chart> charts = ChartCutter(geometry, seen, atlas.texel).Cut();
   progress(0.3);
+  CheckLargest(charts, options, atlas);
   while (!Pack(charts, atlas.texel, options, atlas))
   {
     atlas.texel *= 1.1;

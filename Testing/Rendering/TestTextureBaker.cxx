@@ -132,6 +132,15 @@ TEST(TextureBaker, TexturesAreLimited)
   EXPECT_LE(baked.baker->GetTexture()->GetDimensions()[1], 64);
 }
 
+TEST(TextureBaker, ATextureTooSmallForAnyTexelIsAnError)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  BakedScene baked(2); // charts keep six texels square each
+  baked.baker->SetLargestTexture(16);
+  baked.baker->Update();
+  EXPECT_EQ(baked.baker->GetOutput()->GetNumberOfCells(), 0);
+}
+
 TEST(TextureBaker, WithoutPhotographsAllIsUnseen)
 {
   BakedScene baked;
