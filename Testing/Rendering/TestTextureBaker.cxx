@@ -2,7 +2,9 @@
 #include "vtkTextureBaker.h"
 
 #include "BlockScene.h"
+#include "Error.h"
 #include "SurfaceColor.h"
+#include "TextureAtlas.h"
 #include "vtkTexturedSurfaceWriter.h"
 
 #include <vtkFloatArray.h>
@@ -132,13 +134,20 @@ TEST(TextureBaker, TexturesAreLimited)
   EXPECT_LE(baked.baker->GetTexture()->GetDimensions()[1], 64);
 }
 
-TEST(TextureBaker, ATextureTooSmallForAnyTexelIsAnError)
+TEST(TextureAtlas, OneTooSmallForItsChartsIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
-  BakedScene baked(2); // charts keep six texels square each
-  baked.baker->SetLargestTexture(16);
-  baked.baker->Update();
-  EXPECT_EQ(baked.baker->GetOutput()->GetNumberOfCells(), 0);
+  BlockScene scene;
+  std::vector<Photograph> photographs;
+  for (int i = 0; i < 6; ++i)
+  {
+    photographs.push_back(scene.Take(scene.CameraAt(i), "p"));
+  }
+  const TriangleMesh mesh = scene.Mesh();
+  const SurfaceColor color(mesh, photographs);
+  TextureAtlasOptions options;
+  options.largest = 16;
+  options.gutter = 7; // a chart keeps sixteen texels square, however coarse they are
+  EXPECT_THROW(BakeTexture(mesh, color, options), Error);
 }
 
 TEST(TextureBaker, WithoutPhotographsAllIsUnseen)
