@@ -176,9 +176,21 @@ class TestTextureBaker(unittest.TestCase):
         self.assertAlmostEqual(baker.GetBakedTexelSize(), 0.02)
         width, height, _ = baker.GetTexture().GetDimensions()
         self.assertGreaterEqual(min(width, height), 50)
-        small = self.bake(TexelSize=0.001, LargestTexture=64)
+        small = self.bake(LargestTexture=64)
         self.assertLessEqual(max(small.GetTexture().GetDimensions()), 64)
-        self.assertGreater(small.GetBakedTexelSize(), 0.001)
+        self.assertGreater(small.GetBakedTexelSize(), self.bake().GetBakedTexelSize())
+
+    def test_a_texel_too_fine_for_the_texture_is_refused(self):
+        baker = freespace.vtkTextureBaker()
+        baker.SetInputDataObject(square())
+        baker.SetPhotographs(photographs())
+        baker.SetTexelSize(0.001)
+        baker.SetLargestTexture(64)
+        told = errors_of(baker)
+        baker.Update()
+        self.assertEqual(baker.GetOutput().GetNumberOfCells(), 0)
+        self.assertEqual(len(told), 1)
+        self.assertIn('64', told[0])
 
     def test_without_photographs_all_is_unseen(self):
         baker = self.bake(blocks=vtkMultiBlockDataSet(), UnseenColor=(0.2, 0.6, 0.4), TexelSize=0.02)
