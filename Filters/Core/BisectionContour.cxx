@@ -79,9 +79,8 @@ class Contour
 public:
   Contour(const ContourField& field, const AlignedBox3d& bounds, const ContourOptions& options)
     : Options(options)
-    , IsSingle(SinglePrecisionSuffices(bounds, options))
     , Parts(field, bounds, options)
-    , Blocks(this->Parts.Lattice)
+    , Blocks(this->Parts.lattice)
   {
   }
 
@@ -93,9 +92,9 @@ public:
     this->Blocks.Add(this->Parts.regions);
     if (this->Options.sharp)
     {
-      FindSharpEdges(this->Parts.Field, this->Options.sharpAngle, this->Blocks,
+      FindSharpEdges(this->Parts.field, this->Options.sharpAngle, this->Blocks,
         progress.Part(0.8, 0.86), askingFor);
-      JoinSharpVertices(this->IsSingle, this->Blocks, progress.Part(0.86, 0.9), askingFor);
+      JoinSharpVertices(this->Parts.isSingle, this->Blocks, progress.Part(0.86, 0.9), askingFor);
     }
     this->Count();
     const ContourArrays arrays = allocate({ this->Vertices, this->OwnVertices, this->Triangles });
@@ -277,7 +276,6 @@ private:
   }
 
   const ContourOptions Options;
-  const bool IsSingle;
   ContourRegions Parts;
   ContourBlocks Blocks;
   std::size_t Vertices = 0, OwnVertices = 0, Triangles = 0;

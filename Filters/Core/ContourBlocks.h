@@ -257,8 +257,8 @@ public:
   void JoinSharp(const BlockPlace& place, std::size_t sharp, int face, BlockVertex& last) const;
 
   /// Calls visit(triangle, its three corners, whether it is in the fan about a sharp vertex, the face
-  /// that its two last corners share) for all triangles of a block. In a fan, the sharp vertex is the first corner. False when a vertex is not
-  /// there.
+  /// that its two last corners share) for all triangles of a block. In a fan, the sharp vertex is the
+  /// first corner. False when a vertex is not there.
   template <typename Visit>
   bool ForEachTriangle(const BlockPlace& place, Visit&& visit) const
   {

@@ -54,11 +54,11 @@ std::uint64_t LatticeKey(const LatticeIndex& at)
 }
 
 ContourRegions::ContourRegions(
-  const ContourField& field, const AlignedBox3d& bounds, const ContourOptions& options)
-  : Field(field, bounds)
-  , Lattice(bounds, options.cells)
+  const ContourField& whole, const AlignedBox3d& bounds, const ContourOptions& options)
+  : field(whole, bounds)
+  , lattice(bounds, options.cells)
+  , isSingle(SinglePrecisionSuffices(bounds, options))
   , Options(options)
-  , IsSingle(SinglePrecisionSuffices(bounds, options))
   , Crossing{ options.tolerance, options.clearance, options.exact, options.sharp }
 {
 }
@@ -79,17 +79,17 @@ void ContourRegions::CheckEstimate(const Progress& progress) const
   if (this->Options.memoryLimit > 0)
   {
     const ContourEstimate estimate =
-      EstimateContour(this->Field.Inner(), this->Field.Box(), this->Options, progress);
-    CheckMemoryLimit(estimate.triangles / this->Options.pieces, this->Options, this->IsSingle);
+      EstimateContour(this->field.Inner(), this->field.Box(), this->Options, progress);
+    CheckMemoryLimit(estimate.triangles / this->Options.pieces, this->Options, this->isSingle);
   }
 }
 
 void ContourRegions::FindRegions(const Progress& progress)
 {
-  const CellRange all = { { 0, 0, 0 }, this->Lattice.cells };
+  const CellRange all = { { 0, 0, 0 }, this->lattice.cells };
   std::size_t asked = 0;
   Descend(
-    this->Field, this->Lattice, all, RegionSize, this->Field.Root(),
+    this->field, this->lattice, all, RegionSize, this->field.Root(),
     [&](const CellRange&)
     {
       if (asked++ % RangesAtATime == 0)
@@ -104,12 +104,12 @@ void ContourRegions::FindRegions(const Progress& progress)
   // Many regions are few triangles, unless the surface is rough.
   const double worst = 5.0 * RegionSize * RegionSize * RegionSize * this->regions.size();
   if (this->Options.cells <= QuicklyDescended &&
-    ContourMegabytes(worst, this->Options, this->IsSingle) > this->Options.memoryLimit)
+    ContourMegabytes(worst, this->Options, this->isSingle) > this->Options.memoryLimit)
   {
     this->CheckEstimate(progress);
   }
   // Layer by layer along the longest side, so that what was written can soon be let go.
-  const auto& cells = this->Lattice.cells;
+  const auto& cells = this->lattice.cells;
   const auto height = [axis = std::max_element(cells.begin(), cells.end()) - cells.begin()](
                         const Region& region) { return region.range.low[axis] / RegionSize; };
   std::stable_sort(this->regions.begin(), this->regions.end(),
@@ -191,7 +191,7 @@ void ContourRegions::FindBlocks(
         found += this->regions[i].isOwn ? 2.0 * block.keys.size() : 0.0;
       }
     }
-    CheckMemoryLimit(found, this->Options, this->IsSingle);
+    CheckMemoryLimit(found, this->Options, this->isSingle);
   }
   progress(1.0);
 }
@@ -199,7 +199,7 @@ void ContourRegions::FindBlocks(
 void ContourRegions::RunRegion(Region& region, const Progress& progress, double fraction) const
 {
   Descend(
-    this->Field, this->Lattice, region.range, ContourBlock::Size, region.scope,
+    this->field, this->lattice, region.range, ContourBlock::Size, region.scope,
     [&](const CellRange& range)
     {
       return region.isOwn || range.Longest() > ContourBlock::Size ||
@@ -208,7 +208,7 @@ void ContourRegions::RunRegion(Region& region, const Progress& progress, double 
     [&](const CellRange& range, const FieldScope& scope)
     {
       progress(fraction);
-      ContourBlock block(this->Field, this->Lattice, this->Crossing, range, scope);
+      ContourBlock block(this->field, this->lattice, this->Crossing, range, scope);
       if (!block.keys.empty() || !block.cells.empty())
       {
         region.blocks.push_back(std::move(block));

@@ -30,14 +30,15 @@ class ContourRegions
 {
 public:
   ContourRegions(
-    const ContourField& field, const Eigen::AlignedBox3d& bounds, const ContourOptions& options);
+    const ContourField& whole, const Eigen::AlignedBox3d& bounds, const ContourOptions& options);
 
   /// Finds the regions of the options' piece with their blocks, and of those next to them what the
   /// piece's triangles need. Throws Error when the surface will not fit into the memory limit.
   void Find(const Progress& progress, const ParallelFor& parallelFor, bool isThreadSafe);
 
-  const BoundedField Field;
-  const ContourLattice Lattice;
+  const BoundedField field;
+  const ContourLattice lattice;
+  const bool isSingle;         ///< points in single precision suffice
   std::vector<Region> regions; ///< layer by layer
 
 private:
@@ -57,7 +58,6 @@ private:
   void RunRegion(Region& region, const Progress& progress, double fraction) const;
 
   const ContourOptions Options;
-  const bool IsSingle;
   const CrossingOptions Crossing;
   std::unordered_set<std::uint64_t> OwnRegions; ///< of this piece, when it is not the whole
 };

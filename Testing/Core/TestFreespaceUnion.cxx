@@ -83,6 +83,26 @@ FreespaceUnionOptions Options(int minimumViews, double hullMargin)
   return options;
 }
 
+// Asks the view at places of a segment, but for those where an interval begins or ends.
+void ExpectFreeWithin(const ViewFreespace::Intervals& intervals, const ViewFreespace& view,
+  const Vector3d& first, const Vector3d& last, int places)
+{
+  for (int j = 0; j <= places; ++j)
+  {
+    const double s = j / static_cast<double>(places);
+    bool inside = false, close = false;
+    for (const auto& [begin, end] : intervals)
+    {
+      inside = inside || (s >= begin && s <= end);
+      close = close || std::abs(s - begin) < 1e-7 || std::abs(s - end) < 1e-7;
+    }
+    if (!close)
+    {
+      ASSERT_EQ(view.IsFree(first + s * (last - first)), inside) << "at " << s;
+    }
+  }
+}
+
 }
 
 TEST(FeatureHull, AgreesWithBruteForce)
@@ -341,20 +361,7 @@ TEST(ViewFreespace, IntervalsOfSegmentsAgreeWithTheirPoints)
       const Vector3d last = first + length * Vector3d::Random();
       view.FreeIntervals(first, last, intervals);
       total += intervals.size();
-      for (int j = 0; j <= 200; ++j)
-      {
-        const double s = j / 200.0;
-        bool inside = false, close = false;
-        for (const auto& [begin, end] : intervals)
-        {
-          inside = inside || (s >= begin && s <= end);
-          close = close || std::abs(s - begin) < 1e-7 || std::abs(s - end) < 1e-7;
-        }
-        if (!close)
-        {
-          ASSERT_EQ(view.IsFree(first + s * (last - first)), inside) << seed << " at " << s;
-        }
-      }
+      ASSERT_NO_FATAL_FAILURE(ExpectFreeWithin(intervals, view, first, last, 200)) << seed;
     }
     EXPECT_GT(total, 10u);
   }
@@ -421,20 +428,7 @@ TEST(ViewFreespace, LongSegmentsOverAFineMapAgreeWithTheirPoints)
         ASSERT_LE(intervals[k].first, intervals[k].second);
         ASSERT_TRUE(k == 0 || intervals[k].first > intervals[k - 1].second);
       }
-      for (int j = 0; j <= 500; ++j)
-      {
-        const double s = j / 500.0;
-        bool inside = false, close = false;
-        for (const auto& [begin, end] : intervals)
-        {
-          inside = inside || (s >= begin && s <= end);
-          close = close || std::abs(s - begin) < 1e-7 || std::abs(s - end) < 1e-7;
-        }
-        if (!close)
-        {
-          ASSERT_EQ(view.IsFree(first + s * (last - first)), inside) << seed << " at " << s;
-        }
-      }
+      ASSERT_NO_FATAL_FAILURE(ExpectFreeWithin(intervals, view, first, last, 500)) << seed;
     }
   }
   EXPECT_GT(total, 1000u);

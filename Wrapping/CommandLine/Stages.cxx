@@ -222,8 +222,7 @@ void ContourStage::AddOptions(CLI::App& command)
   command
     .add_option("--memory-limit", this->MemoryLimit,
       "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters "
-      "of "
-      "what the machine has")
+      "of what the machine has")
     ->check(NotNegative())
     ->group("Surface");
   command
