@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkAppendPiecesFilter.h"
 
-#include "AlgorithmProgress.h"
-#include "ObservedTriangles.h"
+#include "Data/ObservedTriangles.h"
+#include "Execution/AlgorithmProgress.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

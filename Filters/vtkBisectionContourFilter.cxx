@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBisectionContourFilter.h"
 
-#include "AlgorithmProgress.h"
-#include "BisectionContour.h"
-#include "ContourEstimate.h"
-#include "FreespaceUnion.h"
-#include "ObservedTriangles.h"
-#include "SMPParallelFor.h"
+#include "Contour/BisectionContour.h"
+#include "Contour/Lattice/ContourEstimate.h"
+#include "Data/ObservedTriangles.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
+#include "Freespace/FreespaceUnion.h"
 #include "vtkFreespaceUnion.h"
 
 #include <vtkCellArray.h>

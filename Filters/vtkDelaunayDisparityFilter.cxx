@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayDisparityFilter.h"
 
-#include "AlgorithmProgress.h"
-#include "ContinueBackground.h"
-#include "DelaunayDisparity.h"
-#include "FeatureCloud.h"
-#include "RejectOutliers.h"
-#include "SMPParallelFor.h"
-#include "UntrustedTriangles.h"
-#include "ViewBlocks.h"
-#include "WatchedFor.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Data/ViewBlocks.h"
+#include "Disparity/BackgroundContinuation.h"
+#include "Disparity/DelaunayDisparity.h"
+#include "Disparity/FeatureCloud.h"
+#include "Disparity/LongTriangles.h"
+#include "Disparity/OutlierRejection.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -30,14 +30,14 @@ int vtkDelaunayDisparityFilter::RequestData(
   options.minimumDisparity = this->MinimumDisparity != 0;
   options.tolerance = this->Tolerance;
   options.keepEdges = this->KeepEdges != 0;
-  freespace::ContinueBackgroundOptions background;
+  freespace::BackgroundContinuationOptions background;
   background.grazingAngle = this->GrazingAngle;
   background.views = this->RefutingViews;
-  freespace::RejectOutliersOptions outliers;
+  freespace::OutlierRejectionOptions outliers;
   outliers.neighbors = this->SupportingNeighbors;
   outliers.seeThroughViews = this->SeeThroughViews;
   outliers.violatingFeatures = this->ViolatingFeatures;
-  freespace::UntrustedTrianglesOptions untrusted;
+  freespace::LongTrianglesOptions untrusted;
   untrusted.longestEdge = this->LongestEdge;
   untrusted.greatestDepth = this->GreatestDepthRatio;
   try
@@ -56,8 +56,8 @@ int vtkDelaunayDisparityFilter::RequestData(
         views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.15, 0.25));
     }
     std::optional<freespace::FeatureCloud> cloud;
-    freespace::Watched(progress.Part(0.25, 0.3),
-      [&](const freespace::StopFlag& stop) { cloud.emplace(views, stop); });
+    freespace::RunWithProgress(progress.Part(0.25, 0.3),
+      [&](const freespace::CancellationFlag& stop) { cloud.emplace(views, stop); });
     std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
       views, *cloud, options, freespace::SMPParallelFor, progress.Part(0.3, 0.65));
     views.clear();
@@ -67,10 +67,10 @@ int vtkDelaunayDisparityFilter::RequestData(
         maps, *cloud, background, freespace::SMPParallelFor, progress.Part(0.65, 0.95));
     }
     std::vector<vtkSmartPointer<vtkPolyData>> blocks(maps.size());
-    freespace::WatchedFor(maps.size(), freespace::SMPParallelFor, progress.Part(0.95, 1.0),
-      [&](std::size_t i, const freespace::StopFlag&)
+    freespace::ParallelForWithProgress(maps.size(), freespace::SMPParallelFor, progress.Part(0.95, 1.0),
+      [&](std::size_t i, const freespace::CancellationFlag&)
       {
-        freespace::RemoveUntrustedTriangles(maps[i], untrusted);
+        freespace::RemoveLongTriangles(maps[i], untrusted);
         blocks[i] = freespace::BlockFromMap(maps[i]);
         // Not all of them twice in memory.
         freespace::DisparityMap named;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFeatureSupportFilter.h"
 
-#include "AlgorithmProgress.h"
-#include "FeatureSupport.h"
-#include "SMPParallelFor.h"
-#include "ViewBlocks.h"
-#include "WatchedFor.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Data/ViewBlocks.h"
+#include "Disparity/FeatureSupport.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
 
 #include <vtkCellArray.h>
 #include <vtkFieldData.h>
@@ -98,8 +98,8 @@ int vtkFeatureSupportFilter::RequestData(
     std::transform(views.begin(), views.end(), std::back_inserter(work),
       [](const freespace::View& view) { return static_cast<double>(view.points.size()); });
     std::vector<std::vector<int>> support(views.size());
-    freespace::WatchedFor(work, freespace::SMPParallelFor, progress,
-      [&](std::size_t i, const freespace::StopFlag&)
+    freespace::ParallelForWithProgress(work, freespace::SMPParallelFor, progress,
+      [&](std::size_t i, const freespace::CancellationFlag&)
       { support[i] = freespace::CountSupport(views[i], options); });
     for (std::size_t i = 0; i < views.size(); ++i)
     {

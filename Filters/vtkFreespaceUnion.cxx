@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreespaceUnion.h"
 
-#include "FreespaceQueries.h"
-#include "Progress.h"
-#include "SMPParallelFor.h"
-#include "ViewBlocks.h"
-#include "WatchedFor.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Common/Progress.h"
+#include "Data/ViewBlocks.h"
+#include "Execution/SMPParallelFor.h"
+#include "Freespace/FreespaceQueries.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
@@ -114,14 +114,14 @@ bool AskAll(vtkFreespaceUnion* phi, const freespace::Progress& progress, MakeInd
     {
       (core.get()->*makeIndex)(progress.Part(0.9 * built, built));
     }
-    freespace::WatchedFor(static_cast<std::size_t>((count + blockSize - 1) / blockSize),
+    freespace::ParallelForWithProgress(static_cast<std::size_t>((count + blockSize - 1) / blockSize),
       freespace::SMPParallelFor, progress.Part(built, 1.0),
-      [&](std::size_t block, const freespace::StopFlag& stop)
+      [&](std::size_t block, const freespace::CancellationFlag& stop)
       {
         const vtkIdType begin = static_cast<vtkIdType>(block) * blockSize;
         for (vtkIdType i = begin; i < std::min(begin + blockSize, count); ++i)
         {
-          freespace::ThrowIfStopped(stop);
+          freespace::ThrowIfCancelled(stop);
           ask(core.get(), i);
         }
       });

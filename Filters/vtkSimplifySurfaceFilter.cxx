@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSimplifySurfaceFilter.h"
 
-#include "AlgorithmProgress.h"
-#include "SMPParallelFor.h"
-#include "SimplifySurface.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
+#include "Mesh/SimplifySurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SparseModelBlocks.h"
 
-#include "Error.h"
-#include "ViewBlocks.h"
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>

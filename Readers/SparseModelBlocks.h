@@ -2,8 +2,8 @@
 #ifndef freespace_SparseModelBlocks_h
 #define freespace_SparseModelBlocks_h
 
-#include "SparseModel.h"
-#include "SparseViews.h"
+#include "SparseModel/SparseModel.h"
+#include "SparseModel/SparseViews.h"
 #include "vtkFreespaceReadersModule.h"
 
 class vtkMultiBlockDataSet;

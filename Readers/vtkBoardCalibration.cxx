@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBoardCalibration.h"
 
-#include "AlgorithmProgress.h"
-#include "BoardCalibration.h"
-#include "Error.h"
-#include "SMPParallelFor.h"
+#include "Calibration/BoardCalibration.h"
+#include "Common/Error.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
 #include "SparseModelBlocks.h"
 
 #include <vtkMultiBlockDataSet.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCameraReader.h"
 
-#include "ColmapModel.h"
-#include "Error.h"
-#include "Scene.h"
-#include "ViewBlocks.h"
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
+#include "Scene/Scene.h"
+#include "SparseModel/ColmapModel.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkClusterProposal.h"
 
-#include "Error.h"
-#include "ProposeClusters.h"
+#include "Common/Error.h"
+#include "Scene/ProposeClusters.h"
 
 #include <vtkObjectFactory.h>
 

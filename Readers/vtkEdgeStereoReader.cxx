@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEdgeStereoReader.h"
 
-#include "AlgorithmProgress.h"
-#include "EdgeStereo.h"
-#include "Error.h"
-#include "EveryImage.h"
-#include "ProposeClusters.h"
-#include "SMPParallelFor.h"
-#include "ViewBlocks.h"
-#include "WatchedFor.h"
+#include "Common/Error.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
+#include "Scene/EveryImage.h"
+#include "Scene/ProposeClusters.h"
+#include "Stereo/EdgeStereo.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -88,8 +88,8 @@ std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene, 
   const std::vector<freespace::CalibratedImage> images = freespace::ReadSceneImages(scene);
   const SingleThreadedOpenCV guard;
   std::vector<freespace::EdgeView> views(scene.clusters.size());
-  freespace::WatchedFor(views.size(), freespace::SMPParallelFor, progress,
-    [&](std::size_t i, const freespace::StopFlag& stop)
+  freespace::ParallelForWithProgress(views.size(), freespace::SMPParallelFor, progress,
+    [&](std::size_t i, const freespace::CancellationFlag& stop)
     {
       try
       {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPhotographReader.h"
 
-#include "AlgorithmProgress.h"
-#include "Scene.h"
-#include "UndistortedImage.h"
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Images/UndistortedImage.h"
+#include "Scene/Scene.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkImageData.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSparseModelReader.h"
 
-#include "AlgorithmProgress.h"
-#include "Error.h"
-#include "ReadSparseModel.h"
-#include "SMPParallelFor.h"
+#include "Common/Error.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
+#include "SparseModel/ReadSparseModel.h"
 #include "SparseModelBlocks.h"
 
 #include <vtkMultiBlockDataSet.h>

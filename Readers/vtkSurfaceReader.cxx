@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceReader.h"
 
-#include "Error.h"
-#include "FileEnding.h"
-#include "SurfaceViewpoint.h"
-#include "ViewBlocks.h"
-#include "WholeFile.h"
+#include "Common/Error.h"
+#include "Common/FileExtension.h"
+#include "Data/SurfaceViewpoint.h"
+#include "Data/ViewBlocks.h"
+#include "Text/WholeFile.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& fileName)
 
 vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
 {
-  const std::string ending = freespace::LowerCaseEnding(fileName);
+  const std::string ending = freespace::LowerCaseExtension(fileName);
   if (ending == ".ply")
   {
     freespace::CheckWholePLY(fileName);

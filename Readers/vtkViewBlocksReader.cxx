@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewBlocksReader.h"
 
-#include "Error.h"
-#include "ViewBlocks.h"
-#include "WholeFile.h"
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
+#include "Text/WholeFile.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>

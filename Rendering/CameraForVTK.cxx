@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CameraForVTK.h"
 
-#include "Error.h"
+#include "Common/Error.h"
 
 #include <vtkCamera.h>
 #include <vtkMath.h>

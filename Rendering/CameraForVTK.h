@@ -2,7 +2,7 @@
 #ifndef freespace_CameraForVTK_h
 #define freespace_CameraForVTK_h
 
-#include "Camera.h"
+#include "Common/Camera.h"
 
 class vtkCamera;
 

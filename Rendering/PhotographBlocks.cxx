@@ -2,8 +2,8 @@
 #include "PhotographBlocks.h"
 
 #include "CameraForVTK.h"
-#include "Error.h"
-#include "ViewBlocks.h"
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
 
 #include <vtkCellArray.h>
 #include <vtkImageData.h>

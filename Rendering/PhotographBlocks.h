@@ -2,8 +2,8 @@
 #ifndef freespace_PhotographBlocks_h
 #define freespace_PhotographBlocks_h
 
-#include "Photograph.h"
-#include "TriangleMesh.h"
+#include "Texture/Photograph.h"
+#include "Texture/TriangleMesh.h"
 #include "vtkFreespaceRenderingModule.h"
 
 class vtkMultiBlockDataSet;

@@ -2,8 +2,8 @@
 #include "vtkCalibratedCamera.h"
 
 #include "CameraForVTK.h"
-#include "Error.h"
-#include "ViewBlocks.h"
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
 
 #include <vtkCamera.h>
 #include <vtkObjectFactory.h>

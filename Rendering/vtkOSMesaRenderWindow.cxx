@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOSMesaRenderWindow.h"
 
-#include "GLDispatch.h"
+#include "OSMesa/GLDispatch.h"
 
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkObjectFactory.h>

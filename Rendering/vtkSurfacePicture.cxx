@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfacePicture.h"
 
-#include "AtomicOutput.h"
 #include "CameraForVTK.h"
-#include "Error.h"
-#include "FramePoints.h"
-#include "PngBytes.h"
-#include "SurfaceViewpoint.h"
-#include "ViewBlocks.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Data/PngBytes.h"
+#include "Data/SurfaceViewpoint.h"
+#include "Data/ViewBlocks.h"
+#include "Viewpoints/FramePoints.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTextureBaker.h"
 
-#include "AlgorithmProgress.h"
-#include "Error.h"
+#include "Common/Error.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
 #include "PhotographBlocks.h"
-#include "SMPParallelFor.h"
-#include "TextureAtlas.h"
+#include "Texture/TextureAtlas.h"
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>

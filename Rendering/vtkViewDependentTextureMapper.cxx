@@ -2,11 +2,11 @@
 #include "vtkViewDependentTextureMapper.h"
 
 #include "CameraForVTK.h"
-#include "Error.h"
+#include "Common/Error.h"
 #include "PhotographBlocks.h"
-#include "SMPParallelFor.h"
+#include "Execution/SMPParallelFor.h"
 #include "ViewDependentTextureShader.h"
-#include "VisibilityMap.h"
+#include "Texture/VisibilityMap.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

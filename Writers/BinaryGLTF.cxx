@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BinaryGLTF.h"
 
-#include "AtomicOutput.h"
-#include "Error.h"
-#include "PngBytes.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Data/PngBytes.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>

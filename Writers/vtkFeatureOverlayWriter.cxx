@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFeatureOverlayWriter.h"
 
-#include "AlgorithmProgress.h"
-#include "FeatureOverlay.h"
-#include "ViewBlocks.h"
-#include "WriteOrTell.h"
+#include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Images/FeatureOverlay.h"
+#include "RunWriter.h"
 
 #include <vtkCellArray.h>
 #include <vtkInformation.h>
@@ -53,7 +53,7 @@ int vtkFeatureOverlayWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkFeatureOverlayWriter::WriteData()
 {
-  this->SetErrorCode(freespace::WriteOrTell(this,
+  this->SetErrorCode(freespace::RunWriter(this,
     [&]
     {
       const freespace::Progress progress = freespace::AlgorithmProgress(this);

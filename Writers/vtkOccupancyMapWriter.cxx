@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOccupancyMapWriter.h"
 
-#include "AlgorithmProgress.h"
-#include "AtomicOutput.h"
-#include "DisparityImage.h"
-#include "Error.h"
-#include "FileEnding.h"
-#include "FreespaceUnion.h"
-#include "SMPParallelFor.h"
-#include "ViewBlocks.h"
-#include "WatchedFor.h"
-#include "WriteOrTell.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Common/FileExtension.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmProgress.h"
+#include "Execution/SMPParallelFor.h"
+#include "Freespace/FreespaceUnion.h"
+#include "RunWriter.h"
+#include "Texture/DisparityImage.h"
 #include "vtkFreespaceUnion.h"
 
 #include <vtkInformation.h>
@@ -43,8 +43,8 @@ public:
     {
       this->Cameras.push_back(map.camera);
     }
-    WatchedFor(maps.size(), SMPParallelFor, progress,
-      [&](std::size_t i, const StopFlag&) {
+    ParallelForWithProgress(maps.size(), SMPParallelFor, progress,
+      [&](std::size_t i, const CancellationFlag&) {
         this->Images[i] = RenderDisparity({ maps[i].points, maps[i].triangles }, maps[i].camera);
       });
   }
@@ -168,9 +168,9 @@ void FillTree(const Lattice& lattice, const FreespaceUnion& phi, const LookedAt&
 }
 
 // Makes cells of one kind a larger one, and tells the others what they hold.
-void Prune(octomap::OcTree& tree, octomap::OcTreeNode* node, const StopFlag& stop)
+void Prune(octomap::OcTree& tree, octomap::OcTreeNode* node, const CancellationFlag& stop)
 {
-  ThrowIfStopped(stop);
+  ThrowIfCancelled(stop);
   for (unsigned int i = 0; i < 8; ++i)
   {
     if (tree.nodeChildExists(node, i))
@@ -255,10 +255,10 @@ int vtkOccupancyMapWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkOccupancyMapWriter::WriteData()
 {
-  this->SetErrorCode(WriteOrTell(this,
+  this->SetErrorCode(RunWriter(this,
     [&]
     {
-      const std::string ending = LowerCaseEnding(this->FileName);
+      const std::string ending = LowerCaseExtension(this->FileName);
       if (ending != ".bt" && ending != ".ot")
       {
         throw Error(
@@ -283,8 +283,8 @@ void vtkOccupancyMapWriter::WriteData()
       const LookedAt lookedAt(MapsFromBlocks(blocks), progress.Part(Built, Rendered));
       core->IndexForPoints(progress.Part(Rendered, Indexed));
       FillTree(lattice, *core, lookedAt, progress.Part(Indexed, Filled), tree);
-      Watched(progress.Part(Filled, Pruned),
-        [&](const StopFlag& stop)
+      RunWithProgress(progress.Part(Filled, Pruned),
+        [&](const CancellationFlag& stop)
         {
           if (tree.getRoot())
           {

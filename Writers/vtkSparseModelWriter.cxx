@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSparseModelWriter.h"
 
-#include "ColmapModel.h"
-#include "Error.h"
+#include "Common/Error.h"
+#include "RunWriter.h"
+#include "SparseModel/ColmapModel.h"
 #include "SparseModelBlocks.h"
-#include "WriteOrTell.h"
 
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -20,7 +20,7 @@ int vtkSparseModelWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkSparseModelWriter::WriteData()
 {
-  this->SetErrorCode(freespace::WriteOrTell(this,
+  this->SetErrorCode(freespace::RunWriter(this,
     [&]
     {
       const freespace::SparseModel model =

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceWriter.h"
 
-#include "AtomicOutput.h"
-#include "Error.h"
-#include "FileEnding.h"
-#include "SurfaceViewpoint.h"
-#include "WriteOrTell.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Common/FileExtension.h"
+#include "Data/SurfaceViewpoint.h"
+#include "RunWriter.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -64,7 +64,7 @@ bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::s
 
 bool vtkSurfaceWriter::CanWriteFile(const std::string& fileName)
 {
-  const std::string ending = freespace::LowerCaseEnding(fileName);
+  const std::string ending = freespace::LowerCaseExtension(fileName);
   return ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".vtp";
 }
 
@@ -77,7 +77,7 @@ int vtkSurfaceWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkSurfaceWriter::WriteData()
 {
   auto* surface = vtkPolyData::SafeDownCast(this->GetInput());
-  this->SetErrorCode(freespace::WriteOrTell(this,
+  this->SetErrorCode(freespace::RunWriter(this,
     [&]
     {
       if (!CanWriteFile(this->FileName))
@@ -91,7 +91,7 @@ void vtkSurfaceWriter::WriteData()
       }
       freespace::AtomicOutput target(this->FileName);
       // VTK's PLY writer appends its own ending to any but ".ply".
-      const std::string ending = freespace::LowerCaseEnding(this->FileName);
+      const std::string ending = freespace::LowerCaseExtension(this->FileName);
       const std::filesystem::path written =
         std::filesystem::path(target.Path()).replace_extension(ending);
       if (!WriteByEnding(surface, ending, written.string()))

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTexturedSurfaceWriter.h"
 
-#include "AtomicOutput.h"
 #include "BinaryGLTF.h"
-#include "Error.h"
-#include "FileEnding.h"
-#include "PngBytes.h"
-#include "WriteOrTell.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Common/FileExtension.h"
+#include "Data/PngBytes.h"
+#include "RunWriter.h"
 
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
@@ -105,7 +105,7 @@ vtkTexturedSurfaceWriter::vtkTexturedSurfaceWriter()
 
 bool vtkTexturedSurfaceWriter::CanWriteFile(const std::string& fileName)
 {
-  const std::string ending = freespace::LowerCaseEnding(fileName);
+  const std::string ending = freespace::LowerCaseExtension(fileName);
   return ending == ".glb" || ending == ".obj" || ending == ".ply";
 }
 
@@ -123,7 +123,7 @@ void vtkTexturedSurfaceWriter::WriteData()
 {
   auto* surface = vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0));
   auto* texture = vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
-  this->SetErrorCode(freespace::WriteOrTell(this,
+  this->SetErrorCode(freespace::RunWriter(this,
     [&]
     {
       if (!CanWriteFile(this->FileName))
@@ -131,7 +131,7 @@ void vtkTexturedSurfaceWriter::WriteData()
         throw freespace::Error("Cannot write '" + this->FileName +
           "': a textured surface's file name ends in .glb, .obj or .ply.");
       }
-      const std::string ending = freespace::LowerCaseEnding(this->FileName);
+      const std::string ending = freespace::LowerCaseExtension(this->FileName);
       const bool textured = texture && texture->GetNumberOfPoints() > 0 &&
         texture->GetScalarType() == VTK_UNSIGNED_CHAR && surface->GetPointData()->GetTCoords();
       if (ending != ".ply" && !textured)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewBlocksWriter.h"
 
-#include "AtomicOutput.h"
-#include "Error.h"
-#include "WriteOrTell.h"
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "RunWriter.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -24,7 +24,7 @@ int vtkViewBlocksWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkViewBlocksWriter::WriteData()
 {
-  this->SetErrorCode(freespace::WriteOrTell(this,
+  this->SetErrorCode(freespace::RunWriter(this,
     [&]
     {
       if (std::filesystem::path(this->FileName).extension() != ".vtm")

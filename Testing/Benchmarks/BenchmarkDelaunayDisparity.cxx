@@ -5,7 +5,7 @@
 //
 //   BenchmarkDelaunayDisparity [--benchmark_filter=...]
 
-#include "DelaunayDisparity.h"
+#include "Disparity/DelaunayDisparity.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

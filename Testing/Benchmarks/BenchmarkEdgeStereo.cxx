@@ -13,11 +13,11 @@
 //
 //   BenchmarkEdgeStereo
 
-#include "CommonVolume.h"
-#include "ImageFile.h"
-#include "Scene.h"
-#include "SharedData.h"
-#include "TrinocularMatcher.h"
+#include "Epipolar/DisparityRange.h"
+#include "Images/ImageFile.h"
+#include "Matching/TrinocularMatcher.h"
+#include "Scene/Scene.h"
+#include "Support/SharedData.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/utility.hpp>

@@ -7,10 +7,10 @@
 //
 //   BenchmarkFreespaceUnion [--benchmark_filter=...]
 
-#include "DelaunayDisparity.h"
-#include "FreespaceUnion.h"
-#include "SharedData.h"
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
+#include "Disparity/DelaunayDisparity.h"
+#include "Freespace/FreespaceUnion.h"
+#include "Support/SharedData.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkFreespaceUnion.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CameraDrawing.h"
+#include "Report/Page/CameraDrawing.h"
 
 #include <gtest/gtest.h>
 

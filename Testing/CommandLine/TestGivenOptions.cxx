@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GivenOptions.h"
+#include "Session/GivenOptions.h"
 
 #include <gtest/gtest.h>
 

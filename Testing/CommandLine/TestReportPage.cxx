@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DataUri.h"
-#include "Error.h"
-#include "Html.h"
-#include "ReportPage.h"
-#include "ShellCommand.h"
-#include "TemporaryFolder.h"
+#include "Common/Error.h"
+#include "Report/Page/DataUri.h"
+#include "Report/Page/Html.h"
+#include "Report/Page/ReportPage.h"
+#include "Report/Page/ShellCommand.h"
+#include "Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>

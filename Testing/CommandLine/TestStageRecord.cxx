@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Error.h"
-#include "StageRecord.h"
-#include "TemporaryFolder.h"
+#include "Common/Error.h"
+#include "Report/Page/StageRecord.h"
+#include "Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TruthComparison.h"
+#include "Report/TruthComparison.h"
 
-#include "Error.h"
+#include "Common/Error.h"
 
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>

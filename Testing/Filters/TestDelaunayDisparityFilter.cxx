@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayDisparityFilter.h"
 
-#include "DelaunayDisparity.h"
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
+#include "Disparity/DelaunayDisparity.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkMultiBlockDataSet.h>
@@ -117,7 +117,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   EXPECT_NE(text.str().find("Tolerance: 0.0002"), std::string::npos);
 }
 
-TEST(DelaunayDisparityFilter, OutliersAndUntrustedTrianglesAreLeftOut)
+TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)
 {
   std::vector<View> views = MakeViews();
   for (View& view : views) // a smooth surface, so that neighbours agree

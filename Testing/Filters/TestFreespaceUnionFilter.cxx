@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../Core/RandomMaps.h"
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
+#include "Support/RandomMaps.h"
 #include "vtkAppendPiecesFilter.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFreespaceUnion.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMergeViewsFilter.h"
 
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
 
-#include "Error.h"
+#include "Common/Error.h"
 #include "vtkFeatureSupportFilter.h"
 #include "vtkViewBlocksReader.h"
 #include "vtkViewBlocksWriter.h"

@@ -2,9 +2,9 @@
 #include "vtkBoardCalibration.h"
 #include "vtkSparseModelWriter.h"
 
-#include "ColmapModel.h"
-#include "SharedData.h"
-#include "TemporaryFolder.h"
+#include "SparseModel/ColmapModel.h"
+#include "Support/SharedData.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>

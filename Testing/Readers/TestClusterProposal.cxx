@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkClusterProposal.h"
 
-#include "Scene.h"
-#include "SharedData.h"
-#include "TemporaryFolder.h"
+#include "Scene/Scene.h"
+#include "Support/SharedData.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkNew.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SharedData.h"
-#include "SyntheticImages.h"
-#include "TemporaryFolder.h"
+#include "Support/SharedData.h"
+#include "Support/SyntheticImages.h"
+#include "Support/TemporaryFolder.h"
 #include "vtkEdgeStereoReader.h"
 #include "vtkFeatureOverlayWriter.h"
 

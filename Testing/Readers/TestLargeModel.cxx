@@ -6,8 +6,8 @@
 #include "vtkFreespaceUnion.h"
 #include "vtkSparseModelReader.h"
 
-#include "ColmapModel.h"
-#include "TemporaryFolder.h"
+#include "SparseModel/ColmapModel.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>

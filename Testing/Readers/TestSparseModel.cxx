@@ -3,11 +3,11 @@
 #include "vtkSparseModelReader.h"
 #include "vtkSparseModelWriter.h"
 
-#include "ColmapModel.h"
-#include "ExpectSameModel.h"
-#include "SyntheticModel.h"
-#include "TemporaryFolder.h"
-#include "ViewBlocks.h"
+#include "Data/ViewBlocks.h"
+#include "SparseModel/ColmapModel.h"
+#include "Support/ExpectSameModel.h"
+#include "Support/SyntheticModel.h"
+#include "Support/TemporaryFolder.h"
 #include "vtkViewBlocksReader.h"
 #include "vtkViewBlocksWriter.h"
 

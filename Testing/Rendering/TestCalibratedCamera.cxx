@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCalibratedCamera.h"
 
-#include "Camera.h"
-#include "View.h"
-#include "ViewBlocks.h"
+#include "Common/Camera.h"
+#include "Common/View.h"
+#include "Data/ViewBlocks.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The comparison of pictures must see what VTK's usual metric does not.
-#include "PictureComparison.h"
+#include "Support/PictureComparison.h"
 
 #include "vtkSurfacePicture.h"
 

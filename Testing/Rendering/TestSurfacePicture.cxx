@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfacePicture.h"
 
-#include "Camera.h"
-#include "PictureComparison.h"
+#include "Common/Camera.h"
+#include "Support/PictureComparison.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCubeSource.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTextureBaker.h"
 
-#include "BlockScene.h"
-#include "Error.h"
-#include "SurfaceColor.h"
-#include "TextureAtlas.h"
+#include "Common/Error.h"
+#include "Support/BlockScene.h"
+#include "Texture/SurfaceColor.h"
+#include "Texture/TextureAtlas.h"
 #include "vtkTexturedSurfaceWriter.h"
 
 #include <vtkFloatArray.h>

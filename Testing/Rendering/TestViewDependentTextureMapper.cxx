@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewDependentTextureMapper.h"
 
-#include "BlockScene.h"
-#include "PictureComparison.h"
+#include "Support/BlockScene.h"
+#include "Support/PictureComparison.h"
 #include "vtkSurfacePicture.h"
 
 #include <vtkTriangleFilter.h>

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FileExtension_h
+#define freespace_FileExtension_h
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+
+namespace freespace
+{
+
+/// What a file's name ends in, with its dot and in small letters: ".ply" of "Mesh.PLY".
+inline std::string LowerCaseExtension(const std::string& fileName)
+{
+  std::string ending = std::filesystem::path(fileName).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+}
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_View_h
+#define freespace_View_h
+
+#include "Common/Camera.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// The features that one cluster of images recovered, in the frame of its reference camera.
+struct View
+{
+  std::string name;      ///< of the cluster
+  std::string imageFile; ///< the reference image, relative to the scene's `images`
+  Camera camera;
+  std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
+  std::vector<Eigen::Vector2d> imagePoints; ///< where the reference image sees them, pixels
+  std::vector<std::array<int, 2>> edges;    ///< pairs of features that an image edge joins
+};
+
+/// What edge stereo knows about each feature of a view beside its place.
+struct EdgeView : View
+{
+  std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue in the reference image
+  std::vector<Eigen::Vector3d> edgeDirections;     ///< of the edge in the world, unit length
+  std::vector<double> matchingCosts;               ///< 0 (perfect) to 1
+  std::vector<int> chainIds;                       ///< index into chains
+  std::vector<std::vector<int>> chains; ///< features that follow each other along an edge
+};
+
+}
+
+#endif

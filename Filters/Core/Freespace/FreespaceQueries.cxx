@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Freespace/FreespaceQueries.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freespace
+{
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+using Intervals = ViewFreespace::Intervals;
+
+namespace
+{
+
+/// Boxes are halved so often before the answer is no.
+constexpr int DeepestHalving = 10;
+
+/// A place along a segment where so many more (or fewer) claim it as free.
+struct Change
+{
+  double at;
+  int by;
+};
+
+// The part of a segment within the closed hull, empty (begin > end) where it passes the hull by.
+std::pair<double, double> WithinHull(
+  const FeatureHull& hull, const Vector3d& first, const Vector3d& last)
+{
+  double begin = 0.0, end = 1.0;
+  for (int i = 0; i < hull.NumberOfPlanes(); ++i)
+  {
+    const double a = hull.Distance(i, first), b = hull.Distance(i, last);
+    if (a > 0)
+    {
+      begin = std::max(begin, b > 0 ? 2.0 : a / (a - b));
+    }
+    else if (b > 0)
+    {
+      end = std::min(end, a / (a - b));
+    }
+  }
+  return { begin, end };
+}
+
+// Halves a box until its parts are decided. The part has to be free only where it meets the ball.
+class FreeBoxTest
+{
+public:
+  FreeBoxTest(const FreespaceUnion& phi, const Vector3d& center, double radius)
+    : Phi(phi)
+    , Center(center)
+    , Radius(radius)
+  {
+  }
+
+  bool IsFree(const AlignedBox3d& box, const FieldScope& parent, int depth) const
+  {
+    if (box.squaredExteriorDistance(this->Center) > this->Radius * this->Radius)
+    {
+      return true;
+    }
+    FieldScope scope;
+    BoxContent content = this->Phi.Classify(box, parent, scope);
+    if (content == BoxContent::Mixed)
+    {
+      content = this->Phi.ClassifyFinely(box, scope);
+    }
+    if (content != BoxContent::Mixed)
+    {
+      return content == BoxContent::Free;
+    }
+    // A point of the ball in matter decides at once.
+    Vector3d nearest = this->Center.cwiseMax(box.min()).cwiseMin(box.max());
+    nearest = std::isinf(this->Radius) ? box.center() : nearest;
+    if (depth == DeepestHalving || !this->Phi.IsFree(nearest, scope))
+    {
+      return false;
+    }
+    const Vector3d half = 0.5 * box.sizes();
+    for (int part = 0; part < 8; ++part)
+    {
+      const Vector3d low =
+        box.min() + Vector3d(part & 1, part >> 1 & 1, part >> 2 & 1).cwiseProduct(half);
+      if (!this->IsFree(AlignedBox3d(low, low + half), scope, depth + 1))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  const FreespaceUnion& Phi;
+  const Vector3d Center;
+  const double Radius;
+};
+
+}
+
+double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vector3d& last)
+{
+  const auto [enters, leaves] = WithinHull(phi.Hull(), first, last);
+  if (phi.Hull().IsEmpty() || !(enters <= leaves))
+  {
+    return HUGE_VAL;
+  }
+  std::vector<Change> changes;
+  Intervals intervals;
+  // Within the hull only the views that are undecided around the segment change their mind along it.
+  AlignedBox3d way(first + enters * (last - first));
+  way.extend(first + leaves * (last - first));
+  const FieldScope scope = phi.ScopeAround(way);
+  if (scope.freeViews >= phi.MinimumViews())
+  {
+    return HUGE_VAL;
+  }
+  for (int view : scope.views)
+  {
+    phi.ViewAt(view).FreeIntervals(first, last, intervals);
+    for (const auto& [begin, end] : intervals)
+    {
+      changes.push_back({ begin, 1 });
+      changes.push_back({ end, -1 });
+    }
+  }
+  // Where one claim ends as another begins, the way is free: first all that begin.
+  std::sort(changes.begin(), changes.end(),
+    [](const Change& a, const Change& b) { return a.at < b.at || (a.at == b.at && a.by > b.by); });
+  double blocked = enters;
+  int claims = scope.freeViews;
+  for (const Change& change : changes)
+  {
+    const bool wasFree = claims >= phi.MinimumViews();
+    claims += change.by;
+    const bool isFree = claims >= phi.MinimumViews();
+    if (isFree && !wasFree && change.at > blocked)
+    {
+      return blocked;
+    }
+    if (wasFree && !isFree)
+    {
+      blocked = std::max(blocked, change.at);
+    }
+    if (blocked > leaves)
+    {
+      return HUGE_VAL;
+    }
+  }
+  return blocked < 1.0 || !phi.IsFree(last) ? blocked : HUGE_VAL;
+}
+
+bool IsBoxFree(const FreespaceUnion& phi, const AlignedBox3d& box)
+{
+  return FreeBoxTest(phi, box.center(), HUGE_VAL).IsFree(box, phi.ScopeAround(box), 0);
+}
+
+bool IsSphereFree(const FreespaceUnion& phi, const Vector3d& center, double radius)
+{
+  const Vector3d reach = Vector3d::Constant(radius);
+  const AlignedBox3d box(center - reach, center + reach);
+  return FreeBoxTest(phi, center, radius).IsFree(box, phi.ScopeAround(box), 0);
+}
+
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FreespaceUnion_h
+#define freespace_FreespaceUnion_h
+
+#include "Common/ParallelFor.h"
+#include "Common/Progress.h"
+#include "Contour/Lattice/ContourField.h"
+#include "Freespace/FeatureHull.h"
+#include "Freespace/ViewOctree.h"
+#include "ViewFreespace/ViewFreespace.h"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace freespace
+{
+
+/// How the free spaces of the views are joined.
+struct FreespaceUnionOptions
+{
+  int minimumViews = 1; ///< so many views must agree that a point is free; >= 1, at most as many as
+                        ///< there are; 1 is the paper
+  double hullMargin = 0.01; ///< by which the hull is pushed out, as a fraction of the diagonal of
+                            ///< the features' bounding box; >= 0, < 10; 0 is the paper
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// Phi' of section 2.2: the union of the views' free spaces and of the outside of the convex hull
+/// of all features.
+///
+/// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
+/// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
+/// point, the depth of the map less the depth of the point (with minimumViews = k the k-th
+/// greatest). It is continuous but for steps at the silhouette walls, where a view's claim ends.
+class FreespaceUnion : public ContourField
+{
+public:
+  /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point
+  /// that is not there; Aborted when the progress wants to stop.
+  FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
+    const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
+
+  /// Of so many maps, each asked for once, used and dropped: they need not all be in memory. The function
+  /// is called from several threads, for no two of them at once.
+  using MapSource = std::function<DisparityMap(std::size_t)>;
+  FreespaceUnion(std::size_t count, const MapSource& mapOf, const FreespaceUnionOptions& options,
+    const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
+
+  /// Makes now the index that views are found by, which otherwise the first call of IsFree makes, if
+  /// there are many views, or that of ScopeAround. Throws Aborted when the progress wants to stop.
+  void IndexForPoints(const Progress& progress) const;
+  void IndexForBoxes(const Progress& progress) const;
+
+  /// Infinite where there are no features at all: everything is free.
+  double Value(const Eigen::Vector3d& point) const;
+
+  /// Of Value.
+  Eigen::Vector3d Gradient(const Eigen::Vector3d& point) const;
+
+  /// The sign of Value, faster. Zero and all that is not a number are matter and free respectively.
+  bool IsFree(const Eigen::Vector3d& point) const;
+
+  /// Whether the views alone say that the point is free, whatever the hull.
+  bool IsSeenFree(const Eigen::Vector3d& point) const;
+
+  bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
+  FieldScope Root() const override;
+
+  /// What is left open around a box: fewer views than at the root.
+  FieldScope ScopeAround(const Eigen::AlignedBox3d& box) const;
+
+  BoxContent Classify(
+    const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
+
+  /// Decides views of a scope by their triangles, for a small box that Classify left Mixed.
+  BoxContent ClassifyFinely(const Eigen::AlignedBox3d& box, FieldScope& scope) const;
+
+  bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free, const FieldScope& scope,
+    double& place, SurfaceLabel& label) const override;
+  SurfaceLabel Label(const Eigen::Vector3d& free, const Eigen::Vector3d& matter,
+    const FieldScope& scope) const override;
+  bool IsThreadSafe() const override { return true; }
+
+  int MinimumViews() const { return this->Options.minimumViews; }
+  const FeatureHull& Hull() const { return *this->FeaturesHull; }
+  std::size_t NumberOfViews() const { return this->Views.size(); }
+  const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
+
+private:
+  struct Winner
+  {
+    double value;
+    Eigen::Vector3d gradient;
+  };
+  bool CanOpen(const FieldScope& scope) const;
+  int FirstAgreement(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+    const FieldScope& scope, double& place) const;
+  SurfaceLabel LabelOfView(
+    int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
+  Winner Evaluate(const Eigen::Vector3d& point) const;
+
+  void CheckCount() const;
+  const ViewOctree& FreeIndex(const Progress& progress = {}) const;
+  const ViewOctree& ClaimIndex() const;
+
+  FreespaceUnionOptions Options;
+  std::vector<std::unique_ptr<ViewFreespace>> Views;
+  std::unique_ptr<FeatureHull> FeaturesHull;
+  mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< when they are first needed
+  mutable std::unique_ptr<ViewOctree> Free, Claims;
+};
+
+}
+
+#endif

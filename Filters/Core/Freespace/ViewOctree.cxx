@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Freespace/ViewOctree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace freespace
+{
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+// The nodes and what they list take some tens of megabytes at most.
+constexpr std::size_t MostNodes = 1 << 17;
+constexpr std::size_t MostUndecided = 1 << 23;
+
+// A view that is asked directly costs no more than another level.
+constexpr std::size_t FewViews = 1;
+
+// The part of a box in one of its eight corners.
+AlignedBox3d Octant(const AlignedBox3d& box, int corner)
+{
+  const Vector3d middle = box.center();
+  AlignedBox3d part;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool isUpper = corner >> axis & 1;
+    part.min()[axis] = isUpper ? middle[axis] : box.min()[axis];
+    part.max()[axis] = isUpper ? box.max()[axis] : middle[axis];
+  }
+  return part;
+}
+
+// The octant of a box that a point of it is in.
+int OctantOf(const AlignedBox3d& box, const Vector3d& point)
+{
+  const Vector3d middle = box.center();
+  int corner = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    corner |= (point[axis] > middle[axis] ? 1 : 0) << axis;
+  }
+  return corner;
+}
+
+}
+
+ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Question& question,
+  int enough, int deepestLevel, const Progress& progress)
+  : Box(box)
+  , Undecided(views.size())
+{
+  std::iota(this->Undecided.begin(), this->Undecided.end(), 0);
+  this->Nodes.push_back({ -1, 0, 0, views.size() });
+  // Level by level, so that where there is no room for more all places are told equally well.
+  std::vector<std::pair<std::size_t, AlignedBox3d>> level = { { 0, box } };
+  double settled = 0.0;
+  for (int depth = 0; depth < deepestLevel && !level.empty(); ++depth)
+  {
+    const double share = std::pow(0.125, depth);
+    std::vector<std::pair<std::size_t, AlignedBox3d>> next;
+    for (const auto& [node, part] : level)
+    {
+      const std::size_t undecided = this->Nodes[node].end - this->Nodes[node].begin;
+      if (undecided <= FewViews || this->Nodes[node].freeViews >= enough ||
+        this->Nodes.size() + 8 > MostNodes || this->Undecided.size() > MostUndecided)
+      {
+        settled += share;
+        continue;
+      }
+      settled += depth + 1 == deepestLevel ? share : 0.0;
+      progress(std::min(settled, 1.0));
+      this->Split(views, question, node, part);
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        next.emplace_back(this->Nodes[node].first + corner, Octant(part, corner));
+      }
+    }
+    level = std::move(next);
+  }
+  progress(1.0);
+}
+
+void ViewOctree::Split(
+  const Views& views, const Question& question, std::size_t node, const AlignedBox3d& box)
+{
+  this->Nodes[node].first = static_cast<int>(this->Nodes.size());
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const AlignedBox3d part = Octant(box, corner);
+    Node child{ -1, this->Nodes[node].freeViews, this->Undecided.size(), 0 };
+    for (std::size_t i = this->Nodes[node].begin; i < this->Nodes[node].end; ++i)
+    {
+      const int view = this->Undecided[i];
+      const BoxContent content = question(*views[view], part);
+      if (content == BoxContent::Mixed)
+      {
+        this->Undecided.push_back(view);
+      }
+      child.freeViews += content == BoxContent::Free;
+    }
+    child.end = this->Undecided.size();
+    this->Nodes.push_back(child);
+  }
+}
+
+ViewOctree::Part ViewOctree::PartOf(const Node& node) const
+{
+  return { node.freeViews, this->Undecided.data() + node.begin, this->Undecided.data() + node.end };
+}
+
+ViewOctree::Part ViewOctree::At(const Vector3d& point) const
+{
+  std::size_t node = 0;
+  AlignedBox3d box = this->Box;
+  while (this->Nodes[node].first >= 0)
+  {
+    const int corner = OctantOf(box, point);
+    box = Octant(box, corner);
+    node = this->Nodes[node].first + corner;
+  }
+  return this->PartOf(this->Nodes[node]);
+}
+
+ViewOctree::Part ViewOctree::Around(const AlignedBox3d& inner) const
+{
+  std::size_t node = 0;
+  AlignedBox3d box = this->Box;
+  while (this->Nodes[node].first >= 0)
+  {
+    const int corner = OctantOf(box, inner.min());
+    box = Octant(box, corner);
+    if (!box.contains(inner))
+    {
+      break;
+    }
+    node = this->Nodes[node].first + corner;
+  }
+  return this->PartOf(this->Nodes[node]);
+}
+
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_SideColors_h
+#define freespace_SideColors_h
+
+#include "Edges/EdgeTokens.h"
+#include "Edges/VectorClones.h"
+
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace freespace
+{
+
+/// How the colours beside the edges of an image are spread, in logarithms (see SideColors).
+struct ColorStatistics
+{
+  explicit ColorStatistics(const EdgeChains& edges);
+
+  struct Channel
+  {
+    double mean = 0, spread = 0;
+  };
+  std::array<Channel, 3> Channels;
+};
+
+/// What the edges of one image look like on both sides, ready to be compared with another's.
+///
+/// Colours are compared in logarithms, 0 .. 255 brought to the same range, where another
+/// illumination is another offset; the dark end, which is mostly noise, is compressed less than a
+/// true logarithm would. The pictures of a cluster show about the same: their mean and spread are
+/// brought to those of the reference, channel by channel, which takes another exposure out.
+class SideColors
+{
+public:
+  /// The colours of an image with these statistics as the reference has them.
+  SideColors(
+    const EdgeChains& image, const ColorStatistics& statistics, const ColorStatistics& reference);
+
+  /// Mean absolute differences, 0 .. 255, between the bright sides and between the dark ones;
+  /// crossed: of the bright side to the other's dark one, and the other way round.
+  std::array<float, 2> Difference(
+    int token, const SideColors& other, int otherToken, bool crossed) const
+  {
+    std::array<float, 2> difference;
+    for (int side = 0; side < 2; ++side)
+    {
+      const EdgeSide& own = this->Sides[token][side];
+      const EdgeSide& others = other.Sides[otherToken][crossed ? 1 - side : side];
+      const unsigned sum =
+        cv::v_reduce_sad(cv::v_load(own.front().data()), cv::v_load(others.front().data()));
+      difference[side] = static_cast<float>(sum) / (3 * own.size());
+    }
+    return difference;
+  }
+
+  /// Before the token is compared.
+  void Prefetch(int token) const { FREESPACE_PREFETCH(&this->Sides[token]); }
+
+private:
+  LargeVector<std::array<EdgeSide, 2>> Sides; // per token
+};
+
+}
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Images/ImageFile.h"
+
+#include "Common/Error.h"
+#include "Text/WholeFile.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <filesystem>
+
+namespace freespace
+{
+
+cv::Mat LoadImage(const std::string& path, int width, int height)
+{
+  if (!std::filesystem::is_regular_file(path))
+  {
+    throw Error("Cannot read the image " + path + ": there is no such file.");
+  }
+  CheckWholeJPEG(path);
+  cv::Mat image;
+  try
+  {
+    // Cameras know the pixels as they are stored, whatever the picture says about its orientation.
+    image = cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  }
+  catch (const cv::Exception&)
+  {
+    image.release(); // told below
+  }
+  if (image.empty())
+  {
+    throw Error("Cannot read the image " + path + ": it is damaged or of an unknown format.");
+  }
+  if (image.cols != width || image.rows != height)
+  {
+    throw Error("The image " + path + " has " + std::to_string(image.cols) + " x " +
+      std::to_string(image.rows) + " pixels, but its camera has " + std::to_string(width) + " x " +
+      std::to_string(height) + ".");
+  }
+  return image;
+}
+
+}

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Matching/RunFitting.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freespace
+{
+
+namespace
+{
+
+constexpr double LongestGap = 12; // within a run, pixels
+
+class RunMatcher
+{
+public:
+  RunMatcher(const EdgeChains& edges, LargeVector<EdgeHypothesis>& chosen,
+    const LargeVector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
+    : Edges(edges)
+    , Chosen(chosen)
+    , Support(support)
+    , Baseline(baseline)
+    , Options(options)
+    , Matches(edges.tokens.size())
+    , Residual(edges.tokens.size(), 0.0)
+  {
+  }
+
+  LargeVector<EdgeMatch> Match()
+  {
+    for (EdgeHypothesis& hypothesis : this->Chosen)
+    {
+      if (!hypothesis.Empty())
+      {
+        this->Intersect(hypothesis);
+      }
+    }
+    std::vector<std::vector<int>> runs;
+    for (std::size_t chain = 0; chain < this->Edges.NumberOfChains(); ++chain)
+    {
+      this->SplitIntoRuns(this->Edges.begin[chain], this->Edges.begin[chain + 1], runs);
+    }
+    for (std::vector<int>& run : runs)
+    {
+      this->DropUnconfirmed(run);
+      this->FitRun(run);
+    }
+    const double limit = this->ResidualLimit(runs);
+    for (const std::vector<int>& run : runs)
+    {
+      this->MatchRun(run, limit);
+    }
+    return std::move(this->Matches);
+  }
+
+private:
+  // The point nearest to all edge lines: unknown are the disparity and the token's shift across the
+  // edge in the reference image.
+  void Intersect(EdgeHypothesis& hypothesis) const
+  {
+    double a = 0, b = 0, c = 1; // normal matrix; the reference's own line asks for shift = 0
+    double right = 0, rightShift = 0;
+    for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
+    {
+      const EdgeCandidate& candidate = this->Support[k];
+      const double weight = candidate.Weight();
+      a += weight;
+      b -= weight * candidate.shift;
+      c += weight * candidate.shift * candidate.shift;
+      right += weight * candidate.disparity;
+      rightShift -= weight * candidate.shift * candidate.disparity;
+    }
+    const double determinant = a * c - b * b;
+    hypothesis.disparity = (c * right - b * rightShift) / determinant;
+    hypothesis.sigma = static_cast<float>(std::sqrt(c / determinant));
+  }
+
+  // With the disparity given, the shift across the edge that fits all lines best.
+  double BestShift(const EdgeHypothesis& hypothesis, double disparity) const
+  {
+    double weights = 1, sum = 0;
+    for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
+    {
+      const EdgeCandidate& candidate = this->Support[k];
+      const double weight = candidate.shift * candidate.Weight();
+      weights += weight * candidate.shift;
+      sum += weight * (disparity - candidate.disparity);
+    }
+    return sum / weights;
+  }
+
+  double Step(int from, int to) const
+  {
+    return (this->Edges.tokens[to].position - this->Edges.tokens[from].position).norm();
+  }
+
+  // The tokens [begin, end) of a chain that have a hypothesis, in pieces without a jump.
+  void SplitIntoRuns(int begin, int end, std::vector<std::vector<int>>& runs) const
+  {
+    const std::size_t before = runs.size();
+    for (int i = begin; i < end; ++i)
+    {
+      if (this->Chosen[i].Empty())
+      {
+        continue;
+      }
+      bool continues = runs.size() > before;
+      if (continues)
+      {
+        const int last = runs.back().back();
+        const double step = this->Step(last, i);
+        continues = step <= LongestGap &&
+          DisparityJump(this->Chosen[last], this->Chosen[i], step, this->Baseline, this->Options) <=
+            1;
+      }
+      if (!continues)
+      {
+        runs.emplace_back();
+      }
+      runs.back().push_back(i);
+    }
+  }
+
+  void DropUnconfirmed(std::vector<int>& run) const
+  {
+    constexpr int longestGap = 12; // tokens
+    std::vector<int> kept;
+    int last = -1; // position in the run of the last confirmed token
+    for (int k = 0; k < static_cast<int>(run.size()); ++k)
+    {
+      if (!this->Chosen[run[k]].Confirmed())
+      {
+        continue;
+      }
+      if (last >= 0 && k - last <= longestGap)
+      {
+        kept.insert(kept.end(), run.begin() + last + 1, run.begin() + k);
+      }
+      kept.push_back(run[k]);
+      last = k;
+    }
+    run = std::move(kept);
+  }
+
+  // The disparity of a run's k-th token by a line through its neighbours: as many of them as make
+  // it known to a good third of a pixel of the longest baseline.
+  double FitDisparity(int k) const
+  {
+    constexpr int leastRadius = 2, greatestRadius = 12;
+    const double enough = std::pow(this->Baseline / 0.35, 2);
+    const std::vector<Sample>& samples = this->Samples;
+    const int last = static_cast<int>(samples.size()) - 1;
+    double w = 0, ws = 0, wss = 0, wd = 0, wsd = 0;
+    const auto add = [&](int j)
+    {
+      const Sample& sample = samples[j];
+      const double distance = (sample.position - samples[k].position).norm();
+      const double s = j < k ? -distance : distance;
+      w += sample.weight;
+      ws += sample.weight * s;
+      wss += sample.weight * s * s;
+      wd += sample.weight * sample.disparity;
+      wsd += sample.weight * s * sample.disparity;
+    };
+    add(k);
+    for (int radius = 1; radius <= greatestRadius && (radius <= leastRadius || w < enough);
+         ++radius)
+    {
+      if (k - radius >= 0)
+      {
+        add(k - radius);
+      }
+      if (k + radius <= last)
+      {
+        add(k + radius);
+      }
+    }
+    const double determinant = w * wss - ws * ws;
+    return determinant > 0 ? (wd * wss - wsd * ws) / determinant : wd / w;
+  }
+
+  // The fitted disparities of a run and how far the edges are from where they predict them.
+  void FitRun(const std::vector<int>& run)
+  {
+    this->Samples.clear();
+    for (int i : run)
+    {
+      const EdgeHypothesis& hypothesis = this->Chosen[i];
+      this->Samples.push_back(
+        { this->Edges.tokens[i].position, hypothesis.disparity, hypothesis.Weight() });
+    }
+    for (int k = 0; k < static_cast<int>(run.size()); ++k)
+    {
+      const EdgeHypothesis& hypothesis = this->Chosen[run[k]];
+      const double disparity = this->FitDisparity(k);
+      double residual = std::abs(hypothesis.disparity - disparity) / hypothesis.sigma;
+      for (int j = hypothesis.begin; j < hypothesis.begin + hypothesis.count; ++j)
+      {
+        const EdgeCandidate& candidate = this->Support[j];
+        residual = std::max(residual, std::abs(candidate.disparity - disparity) / candidate.sigma);
+      }
+      this->Matches[run[k]].disparity = disparity;
+      this->Residual[run[k]] = residual;
+    }
+  }
+
+  // What these images' edges deserve: several times their median error, but not more than the
+  // tolerance. Sharp pictures from exact cameras show up a wrong match by a fraction of a pixel.
+  double ResidualLimit(const std::vector<std::vector<int>>& runs) const
+  {
+    constexpr double factor = 5, least = 0.2; // pixels
+    std::vector<double> residuals;
+    for (const std::vector<int>& run : runs)
+    {
+      for (int i : run)
+      {
+        residuals.push_back(this->Residual[i]);
+      }
+    }
+    if (residuals.empty())
+    {
+      return least;
+    }
+    const auto middle = residuals.begin() + residuals.size() / 2;
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    return std::min(this->Options.tolerance, std::max(least, factor * *middle));
+  }
+
+  // An edge near to parallel with the epipolar line magnifies its error: it has to fit better, so
+  // that its disparity is known to the limit, too (in pixels of the longest baseline).
+  double LimitOf(const EdgeHypothesis& hypothesis, double limit) const
+  {
+    return limit * std::min(1.0, 1 / (hypothesis.sigma * this->Baseline));
+  }
+
+  // Turns what fits into matches, in pieces without a gap.
+  void MatchRun(const std::vector<int>& run, double limit)
+  {
+    std::vector<int> piece;
+    for (int i : run)
+    {
+      const EdgeHypothesis& hypothesis = this->Chosen[i];
+      const bool fits = this->Residual[i] <= this->LimitOf(hypothesis, limit) &&
+        this->Matches[i].disparity > 0 && this->MeanCost(hypothesis) <= this->Options.maximumCost;
+      if (!fits)
+      {
+        this->Matches[i] = EdgeMatch();
+        continue;
+      }
+      if (!piece.empty() && this->Step(piece.back(), i) > LongestGap)
+      {
+        this->FinishPiece(piece);
+      }
+      piece.push_back(i);
+    }
+    this->FinishPiece(piece);
+  }
+
+  void FinishPiece(std::vector<int>& piece)
+  {
+    const bool enough = static_cast<int>(piece.size()) >= this->Options.minimumRun;
+    for (int i : piece)
+    {
+      if (enough)
+      {
+        this->FillMatch(i);
+      }
+      else
+      {
+        this->Matches[i] = EdgeMatch();
+      }
+    }
+    this->NumberOfRuns += enough;
+    piece.clear();
+  }
+
+  double MeanCost(const EdgeHypothesis& hypothesis) const
+  {
+    double cost = 0;
+    for (int k = hypothesis.begin; k < hypothesis.begin + hypothesis.count; ++k)
+    {
+      cost += this->Support[k].cost / hypothesis.count;
+    }
+    return cost;
+  }
+
+  void FillMatch(int i)
+  {
+    const EdgeHypothesis& hypothesis = this->Chosen[i];
+    const EdgeToken& token = this->Edges.tokens[i];
+    EdgeMatch& match = this->Matches[i];
+    match.images = hypothesis.count;
+    match.imagePoint =
+      token.position + this->BestShift(hypothesis, match.disparity) * token.Normal();
+    match.cost = this->MeanCost(hypothesis);
+    match.run = this->NumberOfRuns;
+  }
+
+  const EdgeChains& Edges;
+  LargeVector<EdgeHypothesis>& Chosen;
+  const LargeVector<EdgeCandidate>& Support;
+  double Baseline;
+  const MatcherOptions& Options;
+  LargeVector<EdgeMatch> Matches;
+  std::vector<double> Residual; // per token, pixels across the edge
+  int NumberOfRuns = 0;
+
+  // What a line is fitted to: the tokens of the run at hand.
+  struct Sample
+  {
+    Eigen::Vector2d position;
+    double disparity, weight;
+  };
+  std::vector<Sample> Samples;
+};
+
+}
+
+LargeVector<EdgeMatch> MatchRuns(const EdgeChains& edges, LargeVector<EdgeHypothesis> chosen,
+  const LargeVector<EdgeCandidate>& support, double baseline, const MatcherOptions& options)
+{
+  return RunMatcher(edges, chosen, support, baseline, options).Match();
+}
+
+}

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scene/Scene.h"
+
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "SparseModel/ReadSparseModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unordered_set>
+
+#include <nlohmann/json.hpp>
+
+namespace freespace
+{
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace
+{
+
+// A value of the file with the place where it stands, for the error messages.
+class Node
+{
+public:
+  Node(const Json& value, std::string place)
+    : Value(value)
+    , Place(std::move(place))
+  {
+  }
+
+  [[noreturn]] void Fail(const std::string& fault) const
+  {
+    throw Error("Cannot read " + this->Place + ": " + fault + (fault.back() == '.' ? "" : "."));
+  }
+
+  void ExpectObject(const std::vector<std::string>& known) const
+  {
+    if (!this->Value.is_object())
+    {
+      this->Fail("here should stand an object in braces");
+    }
+    for (const auto& item : this->Value.items())
+    {
+      if (std::find(known.begin(), known.end(), item.key()) == known.end())
+      {
+        this->Fail("the key '" + item.key() + "' is unknown");
+      }
+    }
+  }
+
+  bool Has(const std::string& key) const { return this->Value.contains(key); }
+
+  Node At(const std::string& key) const
+  {
+    if (!this->Has(key))
+    {
+      this->Fail("the key '" + key + "' is missing");
+    }
+    return { this->Value[key], this->Place + ", '" + key + "'" };
+  }
+
+  std::vector<Node> Elements() const
+  {
+    if (!this->Value.is_array())
+    {
+      this->Fail("here should stand a list in brackets");
+    }
+    std::vector<Node> elements;
+    for (std::size_t i = 0; i < this->Value.size(); ++i)
+    {
+      elements.emplace_back(this->Value[i], this->Place + "[" + std::to_string(i) + "]");
+    }
+    return elements;
+  }
+
+  std::string Text() const
+  {
+    if (!this->Value.is_string() || this->Value.get<std::string>().empty())
+    {
+      this->Fail("here should stand a text in quotes that is not empty");
+    }
+    return this->Value.get<std::string>();
+  }
+
+  double Number() const
+  {
+    if (!this->Value.is_number())
+    {
+      this->Fail("here should stand a number");
+    }
+    return this->Value.get<double>();
+  }
+
+  int Integer() const
+  {
+    const double number = this->Number();
+    if (number != std::floor(number) || std::abs(number) > 1e9)
+    {
+      this->Fail("here should stand a whole number");
+    }
+    return static_cast<int>(number);
+  }
+
+private:
+  const Json& Value;
+  std::string Place;
+};
+
+std::array<std::string, 3> ReadTriplet(const Node& node, const std::string& reference)
+{
+  const std::vector<Node> elements = node.Elements();
+  if (elements.size() != 3)
+  {
+    node.Fail("a triplet has three images");
+  }
+  const std::array<std::string, 3> triplet = { elements[0].Text(), elements[1].Text(),
+    elements[2].Text() };
+  if (triplet[1] != reference)
+  {
+    node.Fail("a triplet has the reference " + reference + " in its middle");
+  }
+  if (triplet[0] == triplet[1] || triplet[1] == triplet[2] || triplet[2] == triplet[0])
+  {
+    node.Fail("a triplet has three different images");
+  }
+  return triplet;
+}
+
+Cluster ReadCluster(const Node& node)
+{
+  node.ExpectObject({ "name", "reference", "triplets" });
+  Cluster cluster;
+  cluster.name = node.At("name").Text();
+  cluster.reference = node.At("reference").Text();
+  for (const Node& triplet : node.At("triplets").Elements())
+  {
+    cluster.triplets.push_back(ReadTriplet(triplet, cluster.reference));
+  }
+  if (cluster.triplets.empty())
+  {
+    node.Fail("the cluster " + cluster.name + " has no triplet");
+  }
+  return cluster;
+}
+
+std::vector<Cluster> ReadClusters(const Node& node)
+{
+  std::vector<Cluster> clusters;
+  std::unordered_set<std::string> names;
+  for (const Node& element : node.Elements())
+  {
+    clusters.push_back(ReadCluster(element));
+    if (!names.insert(clusters.back().name).second)
+    {
+      element.Fail("two clusters are called " + clusters.back().name);
+    }
+  }
+  if (clusters.empty())
+  {
+    node.Fail("the list is empty; leave 'clusters' out to have them proposed");
+  }
+  return clusters;
+}
+
+void ReadBoardSize(const Node& node, Board& board)
+{
+  const std::vector<Node> size = node.Elements();
+  if (size.size() != 2)
+  {
+    node.Fail("here should stand two numbers, of columns and of rows");
+  }
+  board.columns = size[0].Integer();
+  board.rows = size[1].Integer();
+}
+
+Board ReadBoard(const Node& node)
+{
+  node.ExpectObject({ "type", "squares", "corners", "square_m", "marker_m", "dictionary" });
+  Board board;
+  const std::string type = node.At("type").Text();
+  board.square = node.At("square_m").Number();
+  if (type == "charuco")
+  {
+    node.ExpectObject({ "type", "squares", "square_m", "marker_m", "dictionary" });
+    board.kind = Board::Kind::Charuco;
+    ReadBoardSize(node.At("squares"), board);
+    board.marker = node.At("marker_m").Number();
+    board.dictionary = node.At("dictionary").Text();
+  }
+  else if (type == "chessboard")
+  {
+    node.ExpectObject({ "type", "corners", "square_m" });
+    board.kind = Board::Kind::Chessboard;
+    ReadBoardSize(node.At("corners"), board);
+  }
+  else
+  {
+    node.At("type").Fail("a board is a 'charuco' or a 'chessboard', not a '" + type + "'");
+  }
+  try
+  {
+    board.Check();
+  }
+  catch (const Error& error)
+  {
+    node.Fail(error.what());
+  }
+  return board;
+}
+
+// Where a byte (counted from one) of a text is, for people.
+std::string PlaceOf(const std::string& text, std::size_t byte)
+{
+  const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
+  const std::size_t lastBreak = before.rfind('\n');
+  const std::size_t column = before.size() - (lastBreak == std::string::npos ? 0 : lastBreak + 1);
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+    ", column " + std::to_string(column + 1);
+}
+
+Json ParseFile(const std::string& file)
+{
+  if (fs::is_directory(file))
+  {
+    throw Error("Cannot read " + file +
+      ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "
+      ".txt).");
+  }
+  std::ifstream stream(file);
+  if (!stream)
+  {
+    throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
+  }
+  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  try
+  {
+    return Json::parse(text);
+  }
+  catch (const Json::parse_error& error)
+  {
+    throw Error("Cannot read " + file + ": it is not valid JSON, the fault is in " +
+      PlaceOf(text, error.byte) + ".");
+  }
+}
+
+std::string Resolve(const std::string& sceneFile, const std::string& folder)
+{
+  return (fs::path(sceneFile).parent_path() / folder).string();
+}
+
+// A folder that stands relative to one file, relative to another.
+std::string Rebase(const std::string& from, const std::string& folder, const std::string& to)
+{
+  if (folder.empty() || fs::path(folder).is_absolute())
+  {
+    return folder;
+  }
+  return fs::proximate(
+    fs::absolute(Resolve(from, folder)), fs::absolute(fs::path(to)).parent_path())
+    .string();
+}
+
+// Ordered, so that the file reads as it is documented.
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson JsonFromCluster(const Cluster& cluster)
+{
+  OrderedJson json;
+  json["name"] = cluster.name;
+  json["reference"] = cluster.reference;
+  json["triplets"] = cluster.triplets;
+  return json;
+}
+
+OrderedJson JsonFromBoard(const Board& board)
+{
+  const bool charuco = board.kind == Board::Kind::Charuco;
+  OrderedJson json;
+  json["type"] = charuco ? "charuco" : "chessboard";
+  json[charuco ? "squares" : "corners"] = { board.columns, board.rows };
+  json["square_m"] = board.square;
+  if (charuco)
+  {
+    json["marker_m"] = board.marker;
+    json["dictionary"] = board.dictionary;
+  }
+  return json;
+}
+
+}
+
+void Board::Check() const
+{
+  const int least = this->kind == Kind::Charuco ? 2 : 3;
+  if (this->columns < least || this->rows < least || this->columns > 1000 || this->rows > 1000)
+  {
+    throw Error("A board has from " + std::to_string(least) + " to 1000 columns and rows.");
+  }
+  if (!(this->square > 0) || !std::isfinite(this->square))
+  {
+    throw Error("The squares of a board must have a positive size.");
+  }
+  if (this->kind == Kind::Charuco && !(this->marker > 0 && this->marker < this->square))
+  {
+    throw Error("The markers of a ChArUco board must be smaller than its squares.");
+  }
+}
+
+std::string Scene::ImagesFolder() const
+{
+  return Resolve(this->file, this->images);
+}
+
+std::string Scene::ModelFolder() const
+{
+  return Resolve(this->file, this->model);
+}
+
+std::string Scene::ImagePath(const std::string& image) const
+{
+  return (fs::path(this->ImagesFolder()) / image).string();
+}
+
+Scene ReadScene(const std::string& file)
+{
+  const Json json = ParseFile(file);
+  const Node root(json, file);
+  root.ExpectObject({ "images", "model", "clusters", "board" });
+  Scene scene;
+  scene.file = file;
+  scene.images = root.At("images").Text();
+  scene.model = root.At("model").Text();
+  if (root.Has("clusters"))
+  {
+    scene.clusters = ReadClusters(root.At("clusters"));
+  }
+  if (root.Has("board"))
+  {
+    scene.board = ReadBoard(root.At("board"));
+  }
+  return scene;
+}
+
+void WriteScene(const Scene& scene, const std::string& file)
+{
+  OrderedJson json;
+  json["images"] = Rebase(scene.file, scene.images, file);
+  json["model"] = Rebase(scene.file, scene.model, file);
+  for (const Cluster& cluster : scene.clusters)
+  {
+    json["clusters"].push_back(JsonFromCluster(cluster));
+  }
+  if (scene.board)
+  {
+    json["board"] = JsonFromBoard(*scene.board);
+  }
+  AtomicOutput target(file);
+  std::ofstream stream(target.Path());
+  // Bytes that are no UTF-8, which file names may have, are replaced rather than thrown at.
+  stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << "\n";
+  stream.close();
+  if (!stream)
+  {
+    throw Error("Cannot write " + file + ": the disk is full or failed.");
+  }
+  target.Commit();
+}
+
+SparseModel ReadSceneModel(const Scene& scene)
+{
+  SparseModel model = ReadSparseModel(scene.ModelFolder());
+  std::unordered_set<std::string> known;
+  for (const SparseImage& image : model.images)
+  {
+    known.insert(image.name);
+  }
+  for (const Cluster& cluster : scene.clusters)
+  {
+    for (const std::array<std::string, 3>& triplet : cluster.triplets)
+    {
+      for (const std::string& image : triplet)
+      {
+        if (!known.count(image))
+        {
+          throw Error("Cannot read " + scene.file + ": the cluster " + cluster.name +
+            " names an image that " + scene.ModelFolder() + " does not have, " + image + ".");
+        }
+      }
+    }
+  }
+  return model;
+}
+
+std::vector<CalibratedImage> ReadSceneImages(const Scene& scene)
+{
+  return CalibratedImages(ReadSceneModel(scene));
+}
+
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Scene_h
+#define freespace_Scene_h
+
+#include "Images/CalibratedImage.h"
+#include "SparseModel/SparseModel.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// Images around a reference image, from which one view's features are found.
+struct Cluster
+{
+  std::string name;
+  std::string reference; ///< an image of the model
+  /// Three images about in a row each, the reference in the middle.
+  std::vector<std::array<std::string, 3>> triplets;
+};
+
+/// A calibration board.
+struct Board
+{
+  enum class Kind
+  {
+    Charuco, ///< chequered, with a marker in each white square
+    Chessboard
+  };
+
+  Kind kind = Kind::Charuco;
+  int columns = 0; ///< squares of a ChArUco board, inner corners of a chessboard
+  int rows = 0;
+  double square = 0;      ///< side of a square, in the unit of the model; > 0
+  double marker = 0;      ///< side of a marker, smaller than the square; ChArUco only
+  std::string dictionary; ///< OpenCV's name, for instance DICT_5X5_250; ChArUco only
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// What a scene.json says:
+///
+///     { "images": "images", "model": "sparse",
+///       "clusters": [ { "name": "cluster1", "reference": "c.jpg",
+///                       "triplets": [["l.jpg", "c.jpg", "r.jpg"], ["u.jpg", "c.jpg", "d.jpg"]] }
+///                       ],
+///       "board": { "type": "charuco", "squares": [15, 15], "square_m": 0.03, "marker_m": 0.0225,
+///                  "dictionary": "DICT_5X5_250" } }
+///
+/// `images` and `model` are relative to the file. `clusters` and `board` may be left out. A
+/// chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
+struct Scene
+{
+  std::string file;              ///< the scene.json
+  std::string images;            ///< folder of the photographs as the file gives it
+  std::string model;             ///< folder of the camera model as the file gives it
+  std::vector<Cluster> clusters; ///< empty when the file has none: they are to be proposed
+  std::optional<Board> board;
+
+  /// The folders, ready to be opened.
+  std::string ImagesFolder() const;
+  std::string ModelFolder() const;
+  std::string ImagePath(const std::string& image) const;
+};
+
+/// Reads a scene.json. Throws Error naming the file and the fault: broken JSON, a missing, unknown
+/// or ill-typed key, a triplet without the reference in its middle or with an image twice, two
+/// clusters of one name, a board that makes no sense.
+Scene ReadScene(const std::string& file);
+
+/// Writes a scene as a scene.json, which is made beside its target and renamed. Relative folders
+/// are made relative to the new file. Throws Error when the file cannot be written.
+void WriteScene(const Scene& scene, const std::string& file);
+
+/// Reads the scene's camera model. Throws Error when that fails (see ReadSparseModel) or when a
+/// cluster names an image that the model does not have.
+SparseModel ReadSceneModel(const Scene& scene);
+
+/// The images of the scene's model. Throws as ReadSceneModel does.
+std::vector<CalibratedImage> ReadSceneImages(const Scene& scene);
+
+}
+
+#endif

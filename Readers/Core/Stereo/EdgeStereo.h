@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_EdgeStereo_h
+#define freespace_EdgeStereo_h
+
+#include "Common/CancellationFlag.h"
+#include "Common/View.h"
+#include "Edges/EdgeTokens.h"
+#include "Matching/TrinocularMatcher.h"
+#include "Scene/Scene.h"
+
+namespace freespace
+{
+
+/// How a cluster's features are found.
+struct EdgeStereoOptions
+{
+  EdgeTokenOptions edges;
+  MatcherOptions matching; ///< an infinite maximumDisparity is replaced by the greatest that the
+                           ///< cameras of a triplet see in common
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// The features of a cluster in its reference image, section 3 of the paper: the edges of its
+/// images, matched over all its triplets together, so that edges of every orientation are found and
+/// each feature is seen in three images at least. Every feature lies on the ray of its image point.
+/// Edge positions are freed of the lens's distortion, images are not resampled: the view's camera
+/// is the pinhole of the reference.
+///
+/// Loads the cluster's images from the scene's folder. `images` is what ReadSceneImages returned.
+/// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
+/// than its camera's, an unknown image, a triplet without overlap, fewer than three features.
+/// Throws Aborted when the flag is set, at the next image.
+EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,
+  const Cluster& cluster, const EdgeStereoOptions& options, const CancellationFlag& stop = NeverCancelled);
+
+}
+
+#endif

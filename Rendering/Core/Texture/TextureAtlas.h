@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_TextureAtlas_h
+#define freespace_TextureAtlas_h
+
+#include "Common/Progress.h"
+#include "Texture/SurfaceColor.h"
+
+namespace freespace
+{
+
+struct TextureAtlasOptions
+{
+  double texel = 0;   ///< side of a texel on the surface, refused where it would not do; 0 takes the
+                      ///< pixels of the photographs, or larger ones
+  int largest = 8192; ///< side of the atlas, texels
+  int gutter = 2;     ///< texels around each chart that repeat its rim
+  Eigen::Vector3d unseen = Eigen::Vector3d(178, 178, 178); ///< red, green, blue
+
+  /// Throws Error when a value is out of its range.
+  void Check() const;
+};
+
+/// A surface with its colours in an image. Points are repeated for each chart that they are in.
+struct TextureAtlas
+{
+  std::vector<int> source;                   ///< per point: its index in the mesh
+  std::vector<Eigen::Vector2d> coordinates;  ///< per point: 0 to 1 in the image, from its top left
+  std::vector<std::array<int, 3>> triangles; ///< in the order of the mesh
+  int width = 0;
+  int height = 0;
+  std::vector<unsigned char> rgb; ///< the top row first
+  int charts = 0;
+  double texel = 0; ///< side of a texel on the surface, before a chart is projected
+};
+
+/// Cuts the surface into charts, which are seen along an axis of space without folding over and at no
+/// more than 66 degrees, packs them into an image and colours it. Triangles that no photograph sees, nor
+/// their neighbours, share one texel; in a chart, what is not seen takes the colours around it.
+TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
+  const TextureAtlasOptions& options = {}, const ParallelFor& parallelFor = SerialFor,
+  const Progress& progress = {});
+
+}
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_VisiblePoints_h
+#define freespace_VisiblePoints_h
+
+#include "Common/Camera.h"
+#include "Texture/TriangleMesh.h"
+
+#include <vector>
+
+namespace freespace
+{
+
+/// The points of a surface that a camera sees, about: by a depth buffer that is coarser than its pictures.
+std::vector<Eigen::Vector3d> VisiblePoints(const TriangleMesh& mesh, const Camera& camera);
+
+}
+
+#endif

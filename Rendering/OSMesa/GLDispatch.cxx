@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OSMesa/GLDispatch.h"
+
+#include "vtk_glew.h"
+// glew takes away the macro that osmesa.h needs.
+#ifndef GLAPI
+#define GLAPI extern
+#endif
+#include <GL/osmesa.h>
+
+// libGLdispatch exports these for libGLX and libEGL; no package has the header.
+extern "C"
+{
+  struct __GLdispatchTableRec;
+
+  struct __GLdispatchThreadStateRec
+  {
+    int tag; // which library owns the thread's context: 0 is GLX, 1 is EGL
+    void (*threadDestroyedCallback)(__GLdispatchThreadStateRec*);
+    void* owned[6]; // the dispatcher's; one pointer in release 1.6, two words before 1.1
+  };
+
+  int __glDispatchGetABIVersion(void);
+  void __glDispatchInit(void);
+  int __glDispatchNewVendorID(void);
+  __GLdispatchTableRec* __glDispatchCreateTable(
+    void* (*getProcAddress)(const char* name, void* parameter), void* parameter);
+  unsigned char __glDispatchMakeCurrent(__GLdispatchThreadStateRec* state,
+    __GLdispatchTableRec* table, int vendor, const void* patchCallbacks);
+  void __glDispatchLoseCurrent(void);
+  __GLdispatchThreadStateRec* __glDispatchGetCurrentThreadState(void);
+}
+
+namespace freespace
+{
+
+namespace
+{
+
+constexpr int SupportedABI = 1;
+constexpr int TagThatIsNotGLX = 1;
+
+void* OSMesaFunction(const char* name, void*)
+{
+  return reinterpret_cast<void*>(OSMesaGetProcAddress(name));
+}
+
+struct OSMesaVendor
+{
+  __GLdispatchTableRec* table = nullptr;
+  int id = 0;
+};
+
+// One table serves all threads and contexts: libOSMesa finds the context itself. It lives as long
+// as the process, as libGLdispatch does.
+const OSMesaVendor& Vendor()
+{
+  static const OSMesaVendor vendor = []
+  {
+    OSMesaVendor made;
+    if (__glDispatchGetABIVersion() == SupportedABI)
+    {
+      __glDispatchInit();
+      made.id = __glDispatchNewVendorID();
+      made.table = __glDispatchCreateTable(OSMesaFunction, nullptr);
+    }
+    return made;
+  }();
+  return vendor;
+}
+
+thread_local __GLdispatchThreadStateRec threadState = { TagThatIsNotGLX,
+  [](__GLdispatchThreadStateRec*) {}, {} };
+
+}
+
+bool DispatchesToOSMesa()
+{
+  return __glDispatchGetCurrentThreadState() == &threadState;
+}
+
+bool DispatchToOSMesa()
+{
+  if (DispatchesToOSMesa())
+  {
+    return true;
+  }
+  const OSMesaVendor& vendor = Vendor();
+  if (!vendor.table)
+  {
+    return false;
+  }
+  if (__glDispatchGetCurrentThreadState())
+  {
+    __glDispatchLoseCurrent(); // a GLX or EGL context was current: it has to be made so again
+  }
+  return __glDispatchMakeCurrent(&threadState, vendor.table, vendor.id, nullptr) != 0;
+}
+
+void StopDispatch()
+{
+  if (DispatchesToOSMesa())
+  {
+    __glDispatchLoseCurrent();
+  }
+}
+
+}

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Calibration/BoardCalibration.h"
+
+#include "Common/Error.h"
+#include "Support/BoardRendering.h"
+#include "Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgcodecs.hpp>
+
+using namespace freespace;
+
+namespace
+{
+
+const std::string charuco = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
+const std::string chessboard = "chessboard:7x5:0.03";
+
+std::vector<CalibratedImage> Cameras(const std::vector<double>& distortion)
+{
+  std::vector<CalibratedImage> cameras = { BoardCamera(2, 3, 8, 0.32), BoardCamera(35, 5, 13, 0.3),
+    BoardCamera(-35, -4, 80, 0.3), BoardCamera(3, 38, 15, 0.3), BoardCamera(-3, -38, -14, 0.32),
+    BoardCamera(25, 25, 40, 0.3) };
+  for (CalibratedImage& camera : cameras)
+  {
+    camera.distortion = distortion;
+  }
+  return cameras;
+}
+
+// Writes what the cameras see of the board and returns the names of the files.
+std::vector<std::string> RenderAll(const TemporaryFolder& folder, const std::string& board,
+  const std::vector<CalibratedImage>& cameras, bool hidePart)
+{
+  const BoardRendering rendering(BoardFromText(board));
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+  {
+    cv::Mat picture = rendering.Render(cameras[i]);
+    cv::Mat noise(picture.size(), CV_16S);
+    cv::theRNG().state = 5 + i;
+    cv::randn(noise, 0, 2);
+    cv::add(picture, noise, picture, cv::noArray(), CV_8U);
+    if (hidePart)
+    {
+      cv::rectangle(picture, { 180 + 10 * static_cast<int>(i), 120, 90, 110 }, { 90 }, cv::FILLED);
+    }
+    files.push_back(folder.Path("picture" + std::to_string(i) + ".png"));
+    cv::imwrite(files.back(), picture);
+  }
+  return files;
+}
+
+BoardCalibration Calibrate(const std::vector<std::string>& files, const std::string& board)
+{
+  BoardCalibrationOptions options;
+  options.board = BoardFromText(board);
+  return CalibrateFromBoard(files, options);
+}
+
+void ExpectCameras(const BoardCalibration& calibration, const std::vector<CalibratedImage>& truth)
+{
+  ASSERT_EQ(calibration.pictures.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+  {
+    const BoardPicture& picture = calibration.pictures[i];
+    ASSERT_TRUE(picture.used) << picture.reason;
+    const Camera& camera = picture.image.camera;
+    EXPECT_NEAR(camera.K(0, 0) / 560, 1, 0.002);
+    EXPECT_NEAR(camera.K(1, 1) / 560, 1, 0.002);
+    EXPECT_NEAR(camera.K(0, 2), 246.5, 1);
+    EXPECT_NEAR(camera.K(1, 2), 176, 1);
+    EXPECT_LT((camera.Center() - truth[i].camera.Center()).norm(), 0.001);
+    EXPECT_LT(picture.error, 0.1);
+  }
+}
+
+void ExpectError(const std::function<void()>& action, const std::vector<std::string>& words)
+{
+  try
+  {
+    action();
+    FAIL() << "no error";
+  }
+  catch (const Error& error)
+  {
+    for (const std::string& word : words)
+    {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
+        << "'" << word << "' is not in: " << error.what();
+    }
+  }
+}
+
+}
+
+TEST(BoardFromText, Charuco)
+{
+  const Board board = BoardFromText("charuco:15x14:0.03:0.0225:DICT_5X5_250");
+  EXPECT_EQ(board.kind, Board::Kind::Charuco);
+  EXPECT_EQ(board.columns, 15);
+  EXPECT_EQ(board.rows, 14);
+  EXPECT_EQ(board.square, 0.03);
+  EXPECT_EQ(board.marker, 0.0225);
+  EXPECT_EQ(board.dictionary, "DICT_5X5_250");
+}
+
+TEST(BoardFromText, Chessboard)
+{
+  const Board board = BoardFromText("chessboard:9x6:25");
+  EXPECT_EQ(board.kind, Board::Kind::Chessboard);
+  EXPECT_EQ(board.columns, 9);
+  EXPECT_EQ(board.rows, 6);
+  EXPECT_EQ(board.square, 25);
+}
+
+TEST(BoardFromText, Malformed)
+{
+  for (const std::string text :
+    { "", "charuco", "dots:9x6:1", "charuco:15x15:0.03:0.02", "chessboard:9:1", "chessboard:9x6",
+      "chessboard:9x6:1:2", "chessboard:ax6:1", "chessboard:9x6:1m", "chessboard:9x6:0",
+      "chessboard:9x-6:1", "charuco:15x15:0.02:0.03:DICT_5X5_250" })
+  {
+    EXPECT_THROW(BoardFromText(text), Error) << text;
+  }
+}
+
+TEST(BoardDetection, CornersAreExact)
+{
+  for (const std::string& text : { charuco, chessboard })
+  {
+    const Board board = BoardFromText(text);
+    const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
+    const cv::Mat picture = BoardRendering(board).Render(camera);
+    const BoardCorners detected = DetectBoard(picture, board);
+    EXPECT_GE(detected.ids.size(), 33u);
+    const BoardCorners corners = FindBoardCorners(picture, board, camera);
+    ASSERT_GE(corners.ids.size(), 33u);
+    const std::vector<Eigen::Vector3d> points = BoardPoints(board);
+    for (std::size_t i = 0; i < corners.ids.size(); ++i)
+    {
+      const Eigen::Vector2d truth = camera.camera.Project(points[corners.ids[i]]);
+      EXPECT_LT((corners.pixels[i] - truth).norm(), 0.12) << text << " corner " << corners.ids[i];
+    }
+    for (std::size_t i = 0; i < detected.ids.size(); ++i)
+    {
+      const Eigen::Vector2d truth = camera.camera.Project(points[detected.ids[i]]);
+      EXPECT_LT((detected.pixels[i] - truth).norm(), 1.5) << text << " corner " << detected.ids[i];
+    }
+  }
+}
+
+// A wrong corner is worse than a missing one.
+TEST(BoardDetection, HiddenCornersAreNotFound)
+{
+  const Board board = BoardFromText(charuco);
+  const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
+  cv::Mat picture = BoardRendering(board).Render(camera);
+  const cv::Rect hidden(150, 100, 120, 120);
+  cv::rectangle(picture, hidden, { 120 }, cv::FILLED);
+  const BoardCorners corners = FindBoardCorners(picture, board, camera);
+  EXPECT_GT(corners.ids.size(), 8u);
+  const std::vector<Eigen::Vector3d> points = BoardPoints(board);
+  for (std::size_t i = 0; i < corners.ids.size(); ++i)
+  {
+    const Eigen::Vector2d truth = camera.camera.Project(points[corners.ids[i]]);
+    EXPECT_FALSE(hidden.contains(cv::Point(truth.x(), truth.y())));
+    EXPECT_LT((corners.pixels[i] - truth).norm(), 0.1);
+  }
+}
+
+TEST(BoardDetection, DictionaryThatIsUnknownOrTooSmall)
+{
+  const cv::Mat gray(100, 100, CV_8U, cv::Scalar(128));
+  Board board = BoardFromText(charuco);
+  board.dictionary = "DICT_3X3";
+  ExpectError([&]() { DetectBoard(gray, board); }, { "DICT_3X3" });
+  board.dictionary = "DICT_5X5_50";
+  board.columns = 15;
+  board.rows = 15;
+  ExpectError([&]() { DetectBoard(gray, board); }, { "DICT_5X5_50", "50 markers" });
+}
+
+TEST(BoardCalibration, CharucoThatIsPartlyHidden)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, true), charuco);
+  ExpectCameras(calibration, truth);
+  EXPECT_TRUE(calibration.pictures[0].image.distortion.empty()) << "there is none";
+  EXPECT_LT(calibration.error, 0.08);
+}
+
+TEST(BoardCalibration, DistortionIsFound)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({ -0.2, 0.05, 0, 0 });
+  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, false), charuco);
+  ExpectCameras(calibration, truth);
+  const std::vector<double>& distortion = calibration.pictures[0].image.distortion;
+  ASSERT_GE(distortion.size(), 4u);
+  // At the edge of the picture, where it counts.
+  const double r2 = 0.25;
+  EXPECT_NEAR(distortion[0] * r2 + distortion[1] * r2 * r2, -0.2 * r2 + 0.05 * r2 * r2, 0.003);
+}
+
+TEST(BoardCalibration, Chessboard)
+{
+  TemporaryFolder folder;
+  std::vector<CalibratedImage> truth = Cameras({});
+  for (CalibratedImage& camera : truth)
+  {
+    camera.camera.t.z() *= 1.4; // all of it must be seen
+  }
+  const BoardCalibration calibration =
+    Calibrate(RenderAll(folder, chessboard, truth, false), chessboard);
+  ASSERT_EQ(calibration.pictures.size(), truth.size());
+  for (const BoardPicture& picture : calibration.pictures)
+  {
+    ASSERT_TRUE(picture.used) << picture.reason;
+    EXPECT_GE(picture.corners.ids.size(), 30u);
+    EXPECT_NEAR(picture.image.camera.K(0, 0) / 560, 1, 0.002);
+  }
+}
+
+TEST(BoardCalibration, PictureWithoutABoardIsLeftOut)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  std::vector<std::string> files = RenderAll(folder, charuco, truth, false);
+  files.insert(files.begin() + 1, folder.Path("empty.png"));
+  cv::imwrite(files[1], cv::Mat(360, 480, CV_8U, cv::Scalar(128)));
+  BoardCalibration calibration = Calibrate(files, charuco);
+  EXPECT_FALSE(calibration.pictures[1].used);
+  EXPECT_FALSE(calibration.pictures[1].reason.empty());
+  calibration.pictures.erase(calibration.pictures.begin() + 1);
+  ExpectCameras(calibration, truth);
+}
+
+TEST(BoardCalibration, ModelHoldsCamerasAndCorners)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, false), charuco);
+  const SparseModel model = calibration.Model(BoardFromText(charuco), folder.Path());
+  ASSERT_EQ(model.cameras.size(), 1u);
+  EXPECT_EQ(model.cameras[0].model, LensModel::SimplePinhole);
+  ASSERT_EQ(model.images.size(), truth.size());
+  EXPECT_EQ(model.images[1].name, "picture1.png");
+  EXPECT_EQ(model.points.size(), 35u);
+  const std::vector<CalibratedImage> images = CalibratedImages(model);
+  const SparseTracks tracks(model);
+  for (std::size_t i = 0; i < model.points.size(); ++i)
+  {
+    EXPECT_EQ(tracks.ofPoint[i].size(), model.points[i].track.size());
+    for (const SparseLink& link : tracks.ofPoint[i])
+    {
+      const Eigen::Vector2d pixel = model.images[link.image].observations[link.observation].pixel;
+      EXPECT_LT((images[link.image].camera.Project(model.points[i].position) - pixel).norm(), 0.5);
+    }
+  }
+}
+
+TEST(BoardCalibration, AnnotatedPictures)
+{
+  TemporaryFolder folder;
+  const std::vector<std::string> files = RenderAll(folder, charuco, Cameras({}), false);
+  const BoardCalibration calibration = Calibrate(files, charuco);
+  WriteBoardPictures(calibration, folder.Path("boards"));
+  const cv::Mat drawn = cv::imread(folder.Path("boards/picture0.jpg"));
+  ASSERT_EQ(drawn.cols, 480);
+  int red = 0;
+  for (int i = 0; i < drawn.rows * drawn.cols; ++i)
+  {
+    const cv::Vec3b& color = drawn.at<cv::Vec3b>(i);
+    red += color[2] > color[1] + 60 && color[2] > color[0] + 60;
+  }
+  EXPECT_GT(red, 100) << "nothing was drawn";
+  EXPECT_THROW(WriteBoardPictures(calibration, "/no/such/folder/boards"), Error);
+}
+
+TEST(BoardCalibration, TooFewPictures)
+{
+  TemporaryFolder folder;
+  std::vector<CalibratedImage> two = Cameras({});
+  two.resize(2);
+  const std::vector<std::string> files = RenderAll(folder, charuco, two, false);
+  ExpectError([&]() { Calibrate(files, charuco); }, { "fewer than three" });
+  ExpectError([&]() { Calibrate({}, charuco); }, { "none of 0" });
+}
+
+// Two pictures of another camera do not spoil the others.
+TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  std::vector<std::string> files = RenderAll(folder, charuco, truth, false);
+  for (int i = 0; i < 2; ++i)
+  {
+    cv::Mat larger;
+    cv::resize(cv::imread(files[i], cv::IMREAD_GRAYSCALE), larger, {}, 1.5, 1.5);
+    files.push_back(folder.Path("larger" + std::to_string(i) + ".png"));
+    cv::imwrite(files.back(), larger);
+  }
+  BoardCalibration calibration = Calibrate(files, charuco);
+  for (std::size_t i = truth.size(); i < files.size(); ++i)
+  {
+    EXPECT_FALSE(calibration.pictures[i].used);
+    EXPECT_FALSE(calibration.pictures[i].reason.empty());
+  }
+  calibration.pictures.resize(truth.size());
+  ExpectCameras(calibration, truth);
+}
+
+// The same picture again and again tells nothing more: a camera or an error, but no crash.
+TEST(BoardCalibration, OnePictureThreeTimes)
+{
+  TemporaryFolder folder;
+  std::vector<CalibratedImage> one = Cameras({});
+  one.resize(1);
+  const std::string file = RenderAll(folder, charuco, one, false).front();
+  try
+  {
+    const BoardCalibration calibration = Calibrate({ file, file, file }, charuco);
+    EXPECT_TRUE(std::isfinite(calibration.error));
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("calibrate"), std::string::npos);
+  }
+}
+
+TEST(BoardCalibration, PictureThatIsMissingOrNone)
+{
+  TemporaryFolder folder;
+  ExpectError([&]() { Calibrate({ folder.Path("missing.png") }, charuco); }, { "missing.png" });
+  const std::string text = folder.Write("text.png", "this is no picture");
+  ExpectError([&]() { Calibrate({ text }, charuco); }, { "text.png" });
+}
+
+TEST(BoardCalibration, OptionsOutOfRange)
+{
+  BoardCalibrationOptions options;
+  options.board = BoardFromText(charuco);
+  options.maximumCoefficients = 3;
+  EXPECT_THROW(CalibrateFromBoard({}, options), Error);
+  options = {};
+  EXPECT_THROW(CalibrateFromBoard({}, options), Error) << "no board";
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Disparity/FeatureSupport.h"
+
+#include "Common/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace freespace;
+
+namespace
+{
+
+View MakeView()
+{
+  View view;
+  view.camera.K << 100, 0, 50, 0, 100, 40, 0, 0, 1;
+  view.camera.width = 100;
+  view.camera.height = 80;
+  return view;
+}
+
+void AddFeature(View& view, const Eigen::Vector2d& pixel, double depth)
+{
+  view.points.push_back(view.camera.Unproject(pixel, depth));
+  view.imagePoints.push_back(pixel);
+}
+
+View RandomView(unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(-10, 110), y(-10, 90), depth(1, 1.05);
+  View view = MakeView();
+  for (int i = 0; i < 400; ++i)
+  {
+    AddFeature(view, { x(random), y(random) }, depth(random));
+  }
+  return view;
+}
+
+std::vector<int> BruteForceSupport(const View& view, const FeatureSupportOptions& options)
+{
+  std::vector<int> support(view.points.size(), 0);
+  for (std::size_t i = 0; i < support.size(); ++i)
+  {
+    for (std::size_t j = 0; j < support.size(); ++j)
+    {
+      const double a = 1 / view.camera.Depth(view.points[i]);
+      const double b = 1 / view.camera.Depth(view.points[j]);
+      support[i] += i != j && (view.imagePoints[i] - view.imagePoints[j]).norm() <= options.radius
+        && std::abs(a - b) <= options.disparityTolerance * std::max(a, b);
+    }
+  }
+  return support;
+}
+
+}
+
+TEST(FeatureSupport, AgreesWithBruteForce)
+{
+  for (unsigned int seed = 0; seed < 20; ++seed)
+  {
+    const View view = RandomView(seed);
+    FeatureSupportOptions options;
+    options.radius = 1.0 + seed;
+    EXPECT_EQ(CountSupport(view, options), BruteForceSupport(view, options)) << "seed " << seed;
+  }
+}
+
+TEST(FeatureSupport, OutlierHasNone)
+{
+  View view = MakeView();
+  for (int i = 0; i < 5; ++i)
+  {
+    AddFeature(view, { 50.0 + i, 40.0 }, 1.0);
+  }
+  AddFeature(view, { 52.0, 40.5 }, 0.5);
+  const std::vector<int> support = CountSupport(view, FeatureSupportOptions());
+  EXPECT_EQ(support, (std::vector<int>{ 4, 4, 4, 4, 4, 0 }));
+}
+
+TEST(FeatureSupport, EmptyView)
+{
+  EXPECT_TRUE(CountSupport(MakeView(), FeatureSupportOptions()).empty());
+}
+
+TEST(FeatureSupport, NotANumberAndBehindTheCameraAreUnusable)
+{
+  View view = MakeView();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  AddFeature(view, { 50, 40 }, 1.0);
+  AddFeature(view, { 51, 40 }, 1.0);
+  view.points.push_back({ nan, 0, 1 });
+  view.imagePoints.push_back({ 50, 40 });
+  AddFeature(view, { 50, 40 }, -1.0);
+  view.points.push_back({ 0, 0, 1 });
+  view.imagePoints.push_back({ nan, nan });
+  EXPECT_EQ(CountSupport(view, FeatureSupportOptions()), (std::vector<int>{ 1, 1, -1, -1, -1 }));
+}
+
+TEST(FeatureSupport, DuplicatesSupportEachOther)
+{
+  View view = MakeView();
+  AddFeature(view, { 50, 40 }, 1.0);
+  AddFeature(view, { 50, 40 }, 1.0);
+  EXPECT_EQ(CountSupport(view, FeatureSupportOptions()), (std::vector<int>{ 1, 1 }));
+}
+
+TEST(FeatureSupport, OptionsOutOfRange)
+{
+  FeatureSupportOptions options;
+  options.radius = 0;
+  EXPECT_THROW(CountSupport(MakeView(), options), Error);
+}
+
+TEST(FeatureSupport, RadiusInSpacings)
+{
+  // A grid of 10 x 8 features 10 pixels apart covers 90 x 70 pixels: a mean spacing of 8.87.
+  View view = MakeView();
+  for (int i = 0; i < 80; ++i)
+  {
+    AddFeature(view, { 5.0 + i % 10 * 10, 5.0 + i / 10 * 10 }, 2);
+  }
+  FeatureSupportOptions options;
+  options.radius = 0.5;
+  options.spacings = 1.2; // 10.6 pixels: the four next to it
+  const std::vector<int> support = CountSupport(view, options);
+  EXPECT_EQ(support[0], 2);
+  EXPECT_EQ(support[1], 3);
+  EXPECT_EQ(support[11], 4);
+  options.spacings = 1.65; // 14.6 pixels: also the diagonal ones
+  EXPECT_EQ(CountSupport(view, options)[11], 8);
+  options.spacings = 0;
+  EXPECT_EQ(CountSupport(view, options)[11], 0) << "the radius in pixels";
+  options.spacings = -1;
+  EXPECT_THROW(CountSupport(view, options), Error);
+}
+
+TEST(FeatureSupport, RadiusInSpacingsOfCoincidentOrNoFeatures)
+{
+  View view = MakeView();
+  FeatureSupportOptions options;
+  options.spacings = 2;
+  EXPECT_TRUE(CountSupport(view, options).empty());
+  AddFeature(view, { 5, 5 }, 2);
+  AddFeature(view, { 5, 5 }, 2);
+  EXPECT_EQ(CountSupport(view, options), (std::vector<int>{ 1, 1 }));
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Disparity/OutlierRejection.h"
+
+#include "Common/Error.h"
+#include "Disparity/DelaunayDisparity.h"
+#include "Disparity/LongTriangles.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace freespace;
+
+namespace
+{
+
+// Views of a wavy sheet. Its features come in different densities.
+std::vector<View> SheetViews(int features)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<View> views(3);
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    View& view = views[v];
+    view.name = "cluster" + std::to_string(v);
+    view.camera.K << 500, 0, 500, 0, 500, 500, 0, 0, 1;
+    view.camera.width = view.camera.height = 1000;
+    view.camera.R = Eigen::AngleAxisd(0.2 * (v - 1.0), Eigen::Vector3d::UnitY()).matrix();
+    view.camera.t = { 0, 0, 3 };
+    for (int i = 0; i < features; ++i)
+    {
+      const double x = unit(random), y = unit(random);
+      view.points.emplace_back(x, y, 0.02 * std::cos(3 * x + y));
+      view.imagePoints.push_back(view.camera.Project(view.points.back()));
+    }
+  }
+  return views;
+}
+
+std::vector<DisparityMap> OwnMaps(const std::vector<View>& views)
+{
+  DelaunayDisparityOptions options;
+  options.minimumDisparity = false;
+  return TriangulateViews(views, options);
+}
+
+std::size_t CountAccepted(const std::vector<char>& accepted)
+{
+  return std::count(accepted.begin(), accepted.end(), 1);
+}
+
+}
+
+TEST(RejectOutliers, WhatIsThrownAlongItsRayIsFoundAtAnyDensity)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> thrown(0.05, 0.15);
+  for (const int features : { 200, 2000, 20000 })
+  {
+    std::vector<View> views = SheetViews(features);
+    for (View& view : views)
+    {
+      for (std::size_t i = 0; i < view.points.size(); i += 20)
+      {
+        const Eigen::Vector3d center = view.camera.Center();
+        view.points[i] =
+          center + (i % 40 ? 1 - thrown(random) : 1 + thrown(random)) * (view.points[i] - center);
+      }
+    }
+    const auto accepted = AcceptedFeatures(views, OwnMaps(views), OutlierRejectionOptions());
+    for (std::size_t v = 0; v < views.size(); ++v)
+    {
+      std::size_t kept = 0, missed = 0;
+      for (std::size_t i = 0; i < accepted[v].size(); ++i)
+      {
+        missed += i % 20 == 0 && accepted[v][i];
+        kept += i % 20 != 0 && accepted[v][i];
+      }
+      EXPECT_LE(missed, 0.1 * 0.05 * features) << "of " << features;
+      EXPECT_GT(kept, 0.98 * 0.95 * features) << "of " << features;
+    }
+  }
+}
+
+TEST(RejectOutliers, WithoutTestsAllFeaturesInTrianglesPass)
+{
+  const std::vector<View> views = SheetViews(100);
+  OutlierRejectionOptions options;
+  options.neighbors = 0;
+  for (const auto& accepted : AcceptedFeatures(views, OwnMaps(views), options))
+  {
+    EXPECT_EQ(CountAccepted(accepted), 100u);
+  }
+}
+
+// Three outliers that support each other, in front of the sheet.
+TEST(RejectOutliers, OtherViewsSeeThroughAClump)
+{
+  std::vector<View> views = SheetViews(2000);
+  for (int i = 0; i < 3; ++i)
+  {
+    views[0].points[i] = views[0].camera.Unproject({ 500.0 + 0.3 * i, 500.0 + 0.1 * i * i }, 2);
+  }
+  OutlierRejectionOptions options;
+  const std::vector<DisparityMap> maps = OwnMaps(views);
+  EXPECT_TRUE(AcceptedFeatures(views, maps, options)[0][1]);
+  options.seeThroughViews = 2;
+  const auto accepted = AcceptedFeatures(views, maps, options);
+  EXPECT_FALSE(accepted[0][0] || accepted[0][1] || accepted[0][2]);
+  EXPECT_GT(CountAccepted(accepted[1]), 1900u);
+}
+
+// A single outlier behind the sheet: the other views' features on the sheet lie in its free space.
+TEST(RejectOutliers, FeaturesOfOtherViewsRefuteWhatIsBehindThem)
+{
+  std::vector<View> views = SheetViews(2000);
+  const auto nearest = [&](const Eigen::Vector2d& pixel)
+  {
+    const auto& pixels = views[0].imagePoints;
+    return std::min_element(pixels.begin(), pixels.end(),
+             [&](const auto& a, const auto& b)
+             { return (a - pixel).norm() < (b - pixel).norm(); }) -
+      pixels.begin();
+  };
+  const std::size_t behind = nearest({ 500, 500 }), before = nearest({ 600, 500 });
+  const Eigen::Vector3d center = views[0].camera.Center();
+  views[0].points[behind] = center + 1.1 * (views[0].points[behind] - center);
+  views[0].points[before] = center + 0.9 * (views[0].points[before] - center);
+  OutlierRejectionOptions options;
+  options.neighbors = 0;
+  options.violatingFeatures = 1;
+  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  EXPECT_FALSE(accepted[0][behind]);
+  EXPECT_TRUE(accepted[0][before]); // it claims too little, not too much
+  EXPECT_EQ(CountAccepted(accepted[0]), 1999u);
+  EXPECT_EQ(CountAccepted(accepted[1]), 2000u);
+  EXPECT_EQ(CountAccepted(accepted[2]), 2000u);
+}
+
+// The missed feature P of the paper's figure 4: one point in front violates the sheet's triangle, and
+// it is the constraint's business, not an outlier of the sheet's.
+TEST(RejectOutliers, AMissedFeatureRefutesNobody)
+{
+  std::vector<View> views = SheetViews(2000);
+  views[1].points.push_back(views[1].camera.Unproject({ 500, 500 }, 2));
+  views[1].imagePoints.emplace_back(500, 500);
+  OutlierRejectionOptions options;
+  options.neighbors = 0;
+  options.violatingFeatures = 1;
+  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  EXPECT_EQ(CountAccepted(accepted[0]), 2000u);
+  EXPECT_EQ(CountAccepted(accepted[1]), 2001u);
+}
+
+TEST(RejectOutliers, ViewsKeepThreeFeatures)
+{
+  std::vector<View> views = SheetViews(3);
+  EXPECT_EQ(RejectOutliers(views, OwnMaps(views), OutlierRejectionOptions())[1].points.size(), 3u);
+  EXPECT_TRUE(RejectOutliers({}, {}, OutlierRejectionOptions()).empty());
+}
+
+TEST(RejectOutliers, OptionsOutOfRange)
+{
+  OutlierRejectionOptions options;
+  options.noise = 0;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options = {};
+  options.neighbors = -1;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options = {};
+  options.violatingFeatures = -1;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options = {};
+  options.nearest = 0;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options = {};
+  options.steepestAngle = 90;
+  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+}
+
+TEST(UntrustedTriangles, LongOrDeepOnesGo)
+{
+  const std::vector<View> views = SheetViews(300);
+  const DisparityMap all = OwnMaps(views)[0];
+  LongTrianglesOptions options;
+  DisparityMap map = all;
+  RemoveLongTriangles(map, options);
+  EXPECT_EQ(map.triangles, all.triangles);
+
+  options.longestEdge = 30;
+  options.greatestDepth = 1.005;
+  RemoveLongTriangles(map, options);
+  std::size_t expected = 0;
+  for (const auto& t : all.triangles)
+  {
+    double longest = 0, ratio = 1;
+    for (int i : t)
+    {
+      for (int j : t)
+      {
+        longest = std::max(longest, (all.imagePoints[i] - all.imagePoints[j]).norm());
+        ratio = std::max(ratio, all.camera.Depth(all.points[i]) / all.camera.Depth(all.points[j]));
+      }
+    }
+    expected += longest <= 30 && ratio <= 1.005;
+  }
+  EXPECT_EQ(map.triangles.size(), expected);
+  EXPECT_GT(expected, 10u);
+  EXPECT_LT(expected, all.triangles.size() - 10);
+}
+
+TEST(UntrustedTriangles, OptionsOutOfRange)
+{
+  DisparityMap map;
+  LongTrianglesOptions options;
+  options.longestEdge = -1;
+  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  options = {};
+  options.greatestDepth = 1;
+  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+}

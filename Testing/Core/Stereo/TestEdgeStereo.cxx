@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stereo/EdgeStereo.h"
+
+#include "Common/Error.h"
+#include "Support/SyntheticImages.h"
+#include "Support/TemporaryFolder.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace freespace;
+
+namespace
+{
+
+// A plane of coloured squares at depth 1, photographed by a cross of cameras, on disk.
+class SquaresScene
+{
+public:
+  explicit SquaresScene(const std::vector<double>& distortion = {})
+  {
+    Layer plane;
+    plane.exists = Everywhere();
+    plane.color = RandomSquares(0.06, 5);
+    const char* names[5] = { "c.png", "l.png", "r.png", "u.png", "d.png" };
+    const std::vector<Camera> cameras = CrossOfCameras();
+    std::filesystem::create_directories(this->Folder.Path("images"));
+    for (int i = 0; i < 5; ++i)
+    {
+      this->Images.push_back({ names[i], cameras[i], distortion });
+      cv::imwrite(this->Folder.Path("images/" + std::string(names[i])),
+        Render({ plane }, cameras[i], Undistorted(cameras[i], distortion), 12));
+    }
+    this->Scene.file = this->Folder.Path("scene.json");
+    this->Scene.images = "images";
+    this->Cluster.name = "cross";
+    this->Cluster.reference = "c.png";
+    this->Cluster.triplets = { { "l.png", "c.png", "r.png" }, { "u.png", "c.png", "d.png" } };
+  }
+
+  EdgeView Find() const
+  {
+    return FindFeatures(this->Scene, this->Images, this->Cluster, EdgeStereoOptions());
+  }
+
+  // What Find() says is wrong.
+  std::string Fault() const
+  {
+    try
+    {
+      this->Find();
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  void ExpectOneSentence(const std::string& first, const std::string& second) const
+  {
+    const std::string fault = this->Fault();
+    EXPECT_NE(fault.find(first), std::string::npos) << fault;
+    EXPECT_NE(fault.find(second), std::string::npos) << fault;
+    EXPECT_EQ(fault.back(), '.');
+    EXPECT_EQ(fault.find('\n'), std::string::npos);
+  }
+
+  TemporaryFolder Folder;
+  freespace::Scene Scene;
+  freespace::Cluster Cluster;
+  std::vector<CalibratedImage> Images;
+
+private:
+  static PixelMap Undistorted(const Camera& camera, const std::vector<double>& distortion)
+  {
+    if (distortion.empty())
+    {
+      return nullptr;
+    }
+    return [=](const Eigen::Vector2d& pixel)
+    {
+      const cv::Matx33d K(
+        camera.K(0, 0), 0, camera.K(0, 2), 0, camera.K(1, 1), camera.K(1, 2), 0, 0, 1);
+      std::vector<cv::Point2d> ideal;
+      cv::undistortPoints(std::vector<cv::Point2d>{ { pixel.x(), pixel.y() } }, ideal, K,
+        distortion, cv::noArray(), K,
+        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 40, 1e-9));
+      return Eigen::Vector2d(ideal[0].x, ideal[0].y);
+    };
+  }
+};
+
+void ExpectOnThePlane(const EdgeView& view)
+{
+  EXPECT_GT(view.points.size(), 1500u);
+  double sum = 0;
+  int close = 0;
+  for (std::size_t i = 0; i < view.points.size(); ++i)
+  {
+    EXPECT_LT((view.camera.Project(view.points[i]) - view.imagePoints[i]).norm(), 1e-6);
+    const double off = 40 * (1 / view.camera.Depth(view.points[i]) - 1); // pixels of one baseline
+    sum += off;
+    close += std::abs(off) < 0.2;
+  }
+  EXPECT_LT(std::abs(sum / view.points.size()), 0.02);
+  EXPECT_GT(close, 0.97 * view.points.size());
+}
+
+}
+
+TEST(EdgeStereo, FeaturesOfACross)
+{
+  const SquaresScene scene;
+  const EdgeView view = scene.Find();
+  EXPECT_EQ(view.name, "cross");
+  EXPECT_EQ(view.imageFile, "c.png");
+  ExpectOnThePlane(view);
+}
+
+TEST(EdgeStereo, ChainsFollowTheEdges)
+{
+  const EdgeView view = SquaresScene().Find();
+  ASSERT_EQ(view.edgeDirections.size(), view.points.size());
+  ASSERT_EQ(view.colors.size(), view.points.size());
+  std::vector<int> uses(view.points.size(), 0);
+  for (std::size_t chain = 0; chain < view.chains.size(); ++chain)
+  {
+    EXPECT_GE(view.chains[chain].size(), 3u);
+    for (int i : view.chains[chain])
+    {
+      ++uses[i];
+      EXPECT_EQ(view.chainIds[i], static_cast<int>(chain));
+    }
+  }
+  EXPECT_EQ(uses, std::vector<int>(view.points.size(), 1));
+  int alongAxis = 0; // of the squares
+  for (std::size_t i = 0; i < view.points.size(); ++i)
+  {
+    const Eigen::Vector3d& direction = view.edgeDirections[i];
+    EXPECT_NEAR(direction.norm(), 1, 1e-9);
+    alongAxis += std::max(std::abs(direction.x()), std::abs(direction.y())) > 0.97;
+    EXPECT_GE(view.matchingCosts[i], 0);
+    EXPECT_LE(view.matchingCosts[i], 1);
+  }
+  EXPECT_GT(alongAxis, 0.85 * view.points.size());
+}
+
+TEST(EdgeStereo, LensDistortionIsRemoved)
+{
+  for (const std::vector<double>& distortion : { std::vector<double>{ -0.12, 0.03, 0, 0 },
+         std::vector<double>{ 0.1, -0.05, 0.002, -0.003, 0.01 } })
+  {
+    ExpectOnThePlane(SquaresScene(distortion).Find());
+  }
+}
+
+TEST(EdgeStereo, DepthRangeWithoutTheScene)
+{
+  const SquaresScene scene;
+  EdgeStereoOptions options;
+  options.matching.minimumDisparity = 1.3;
+  EXPECT_THROW(FindFeatures(scene.Scene, scene.Images, scene.Cluster, options), Error);
+}
+
+TEST(EdgeStereo, MissingImage)
+{
+  const SquaresScene scene;
+  std::filesystem::remove(scene.Folder.Path("images/l.png"));
+  scene.ExpectOneSentence("images/l.png", "no such file");
+}
+
+TEST(EdgeStereo, UnreadableImage)
+{
+  const SquaresScene scene;
+  scene.Folder.Write("images/d.png", "not a picture");
+  scene.ExpectOneSentence("images/d.png", "damaged");
+}
+
+TEST(EdgeStereo, ImageOfAnotherSize)
+{
+  SquaresScene scene;
+  cv::imwrite(scene.Folder.Path("images/r.png"), cv::Mat(90, 120, CV_8UC3, cv::Scalar(1, 2, 3)));
+  scene.ExpectOneSentence("images/r.png", "120 x 90");
+}
+
+TEST(EdgeStereo, UnknownImage)
+{
+  SquaresScene scene;
+  scene.Cluster.triplets[1][2] = "x.png";
+  scene.ExpectOneSentence("x.png", "cross");
+}
+
+TEST(EdgeStereo, TripletWithoutOverlap)
+{
+  SquaresScene scene;
+  scene.Images[1].camera = LookAt({ -0.1, 0, 0 }, { -1, 0, -1 });
+  scene.ExpectOneSentence("cross", "overlap");
+}
+
+TEST(EdgeStereo, FewerThanThreeFeatures)
+{
+  SquaresScene scene;
+  cv::imwrite(scene.Folder.Path("images/c.png"), cv::Mat(180, 240, CV_8UC3, cv::Scalar(1, 2, 3)));
+  scene.ExpectOneSentence("cross", "fewer than three features");
+}

@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks that the source tree keeps the architecture that ARCHITECTURE.md describes.
+
+    check_architecture.py SOURCE
+
+- No file of a Core folder includes a VTK header.
+- No include cycle between files, and none between folders.
+- No code file has more than 500 lines, no folder more than 20 files.
+
+Prints each fault and exits with 1 if there is one.
+"""
+import os
+import re
+import sys
+
+ROOTS = ['Filters', 'Readers', 'Rendering', 'Writers', 'Wrapping']
+INCLUDE_DIRS = ['Filters/Core', 'Readers/Core', 'Rendering/Core', 'Filters', 'Readers', 'Rendering',
+                'Writers', 'Wrapping/CommandLine']
+MOST_LINES = 500
+MOST_FILES = 20
+CODE = ('.h', '.cxx', '.py', '.js')
+
+
+def code_files(source, roots):
+    for root in roots:
+        for folder, _, names in os.walk(os.path.join(source, root)):
+            for name in sorted(names):
+                if name.endswith(CODE):
+                    yield os.path.relpath(os.path.join(folder, name), source)
+
+
+def includes(source, file, known):
+    """The project's own files that a file includes."""
+    with open(os.path.join(source, file), encoding='utf-8') as text:
+        for name in re.findall(r'^\s*#\s*include\s*["<]([^">]+)[">]', text.read(), re.M):
+            for folder in INCLUDE_DIRS:
+                path = os.path.normpath(os.path.join(folder, name))
+                if path in known:
+                    yield path
+                    break
+
+
+def find_cycle(graph):
+    """A cycle of a graph as a list of nodes, or None. Depth-first search."""
+    done, path = set(), []
+
+    def visit(node):
+        if node in path:
+            return path[path.index(node):] + [node]
+        if node in done:
+            return None
+        path.append(node)
+        for other in sorted(graph.get(node, ())):
+            cycle = visit(other)
+            if cycle:
+                return cycle
+        path.pop()
+        done.add(node)
+        return None
+
+    for node in sorted(graph):
+        cycle = visit(node)
+        if cycle:
+            return cycle
+    return None
+
+
+def check_core(source, faults):
+    count = 0
+    for file in code_files(source, ROOTS):
+        if '/Core/' not in file:
+            continue
+        count += 1
+        with open(os.path.join(source, file), encoding='utf-8') as text:
+            for line in text:
+                if re.match(r'\s*#\s*include\s*[<"]vtk', line):
+                    faults.append(f'{file} is in the core but includes VTK: {line.strip()}')
+    if count == 0:
+        faults.append(f'No core files under {source}.')
+
+
+def check_cycles(source, faults):
+    files = list(code_files(source, ROOTS))
+    known = set(files)
+    file_graph = {file: set(includes(source, file, known)) for file in files}
+    folder_graph = {}
+    for file, others in file_graph.items():
+        folder = os.path.dirname(file)
+        links = folder_graph.setdefault(folder, set())
+        links.update(os.path.dirname(other) for other in others)
+        links.discard(folder)
+    for kind, graph in (('files', file_graph), ('folders', folder_graph)):
+        cycle = find_cycle(graph)
+        if cycle:
+            faults.append(f'Include cycle between {kind}: ' + ' -> '.join(cycle))
+
+
+def check_sizes(source, faults):
+    for file in code_files(source, ROOTS + ['Testing', 'Examples']):
+        with open(os.path.join(source, file), encoding='utf-8') as text:
+            lines = sum(1 for _ in text)
+        if lines > MOST_LINES:
+            faults.append(f'{file} has {lines} lines, more than {MOST_LINES}.')
+    for root in ROOTS + ['Testing', 'Examples']:
+        for folder, _, names in os.walk(os.path.join(source, root)):
+            files = [name for name in names if name.endswith(CODE + ('.txt', '.html', '.css'))]
+            if 'images' not in folder and '__pycache__' not in folder and len(files) > MOST_FILES:
+                place = os.path.relpath(folder, source)
+                faults.append(f'{place} has {len(files)} files, more than {MOST_FILES}.')
+
+
+def main():
+    source = sys.argv[1]
+    faults = []
+    check_core(source, faults)
+    check_cycles(source, faults)
+    check_sizes(source, faults)
+    print('\n'.join(faults) if faults else 'The architecture is kept.')
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == '__main__':
+    main()

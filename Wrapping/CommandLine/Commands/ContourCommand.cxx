@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Output/SurfaceFiles.h"
+#include "Output/ViewFiles.h"
+#include "Output/Viewpoint.h"
+#include "Session/Ranks.h"
+#include "Session/Session.h"
+#include "Stages/ContourStage.h"
+
+#include <vtkBisectionContourFilter.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+
+#include <memory>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string maps;
+  std::string output;
+  ContourStage contour;
+};
+
+// Each of the processes that mpiexec started makes a piece, the first one joins and writes them. All
+// read the maps for themselves.
+void Contour(Session& session, const Settings& settings)
+{
+  Ranks ranks;
+  vtkSmartPointer<vtkMultiBlockDataSet> maps;
+  vtkSmartPointer<vtkPolyData> piece;
+  bool isWritten = false;
+  ranks.Together(
+    [&]()
+    {
+      if (ranks.Rank() == 0)
+      {
+        CheckSurfaceName(settings.output);
+      }
+      maps = ReadMaps(session, settings.maps);
+      const auto filter = settings.contour.MakeFilter(maps);
+      isWritten =
+        ranks.Count() == 1 && settings.contour.Stream(session, filter, maps, settings.output);
+      piece = isWritten ? nullptr
+                        : settings.contour.RunPiece(session, filter, ranks.Rank(), ranks.Count());
+    });
+  if (isWritten)
+  {
+    return;
+  }
+  const auto pieces = ranks.Gather(piece);
+  ranks.Together(
+    [&]()
+    {
+      if (ranks.Rank() == 0)
+      {
+        const auto surface = settings.contour.Join(session, pieces);
+        AddViewpoint(maps, surface);
+        WriteSurface(session, surface, settings.output);
+      }
+    });
+}
+
+}
+
+void AddContourCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("contour", "Make the surface: the boundary of the free space");
+  command->add_option("maps", settings->maps, "What 'triangulate' wrote")
+    ->required()
+    ->type_name("MAPS.vtm");
+  command->add_option("-o,--output", settings->output, "The surface to write (.ply .stl .obj .vtp)")
+    ->required()
+    ->type_name("MESH.ply");
+  settings->contour.AddOptions(*command);
+  command->footer("Example:\n  freespace contour maps.vtm -o mesh.ply --cells 512\n"
+                  "  mpiexec -n 4 freespace contour maps.vtm -o mesh.ply --cells 2048");
+  command->callback(session.Defer(
+    [settings, &session]() { Contour(session, *settings); }, Session::Sharing::AllProcesses));
+}
+
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Output/ViewFiles.h"
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkOccupancyMapWriter.h>
+
+#include <memory>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+/// Lets what is written to the standard error go nowhere: OctoMap's library tells there how many nodes
+/// it writes, and knows no way to keep silent.
+class SilentStandardError
+{
+public:
+  SilentStandardError()
+    : Kept(dup(STDERR_FILENO))
+  {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~SilentStandardError()
+  {
+    dup2(this->Kept, STDERR_FILENO);
+    close(this->Kept);
+  }
+  SilentStandardError(const SilentStandardError&) = delete;
+  SilentStandardError& operator=(const SilentStandardError&) = delete;
+
+private:
+  int Kept;
+};
+
+struct Settings
+{
+  std::string maps;
+  std::string output;
+  double resolution = 0;
+  double hullMargin = 0.01;
+  int minimumViews = 1;
+};
+
+}
+
+void AddOccupancyCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("occupancy", "Write free, occupied and unknown space as an OctoMap");
+  command->add_option("maps", settings->maps, "The disparity maps")
+    ->required()
+    ->type_name("MAPS.vtm");
+  command->add_option("-o,--output", settings->output, "The OctoMap to write (.bt or .ot)")
+    ->required()
+    ->type_name("MAP.bt");
+  command
+    ->add_option("--resolution", settings->resolution,
+      "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
+    ->check(NonNegative())
+    ->capture_default_str();
+  command
+    ->add_option("--hull-margin", settings->hullMargin,
+      "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
+    ->check(NonNegative())
+    ->capture_default_str();
+  command
+    ->add_option(
+      "--min-views", settings->minimumViews, "So many views make a point free")
+    ->check(CLI::Range(1, 1000000))
+    ->capture_default_str();
+  command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
+  command->callback(session.Defer(
+    [settings, &session]()
+    {
+      const auto maps = ReadMaps(session, settings->maps);
+      vtkNew<vtkOccupancyMapWriter> writer;
+      writer->SetInputDataObject(maps);
+      writer->SetFileName(settings->output);
+      writer->SetResolution(settings->resolution);
+      writer->SetHullMargin(settings->hullMargin);
+      writer->SetMinimumViews(settings->minimumViews);
+      session.Watch(writer, "occupancy",
+        [&]
+        {
+          const SilentStandardError silent;
+          writer->Write();
+        });
+      session.Log("wrote " + settings->output);
+    }));
+}
+
+}

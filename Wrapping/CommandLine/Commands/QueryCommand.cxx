@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Common/Error.h"
+#include "Output/ViewFiles.h"
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFreespaceUnion.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string maps;
+  std::string points;
+  std::string segments;
+  double hullMargin = 0.01;
+  int minimumViews = 1;
+};
+
+// Whether a first row names the columns: it has a letter and does not begin like a number, such as
+// "1e3,0,0" or "1;2;3e5".
+bool IsHeading(const std::string& line)
+{
+  char* end = nullptr;
+  std::strtod(line.c_str(), &end);
+  return end == line.c_str() &&
+    std::any_of(line.begin(), line.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+// The numbers of a row; nothing when it has anything else.
+std::vector<double> ReadRow(std::string line)
+{
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  std::vector<double> values;
+  for (std::string word; words >> word;)
+  {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(values.back()))
+    {
+      return {};
+    }
+  }
+  return values;
+}
+
+// Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
+std::vector<double> ReadTable(Session& session, const std::string& fileName, std::size_t columns)
+{
+  std::ifstream file(fileName);
+  if (!file || std::filesystem::is_directory(fileName))
+  {
+    throw Error("'" + fileName + "' cannot be read" + (file ? ": it is a folder." : "."));
+  }
+  std::vector<double> numbers;
+  std::string line;
+  bool isFirst = true;
+  for (int row = 1; std::getline(file, line); ++row)
+  {
+    session.ThrowIfFailed();                            // on an interrupt
+    if (row == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
+    {
+      line.erase(0, 3);
+    }
+    if (line.find_first_not_of(" \t\r") == std::string::npos)
+    {
+      continue;
+    }
+    const bool isHeading = isFirst && IsHeading(line);
+    isFirst = false;
+    if (isHeading)
+    {
+      continue;
+    }
+    const std::vector<double> values = ReadRow(line);
+    if (values.size() != columns)
+    {
+      throw Error("'" + fileName + "' has no " + std::to_string(columns) + " numbers in line " +
+        std::to_string(row) + ".");
+    }
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  if (isFirst)
+  {
+    throw Error("'" + fileName + "' is empty: there is no line 1.");
+  }
+  return numbers;
+}
+
+void TellPoints(Session& session, vtkFreespaceUnion* phi, const std::string& fileName)
+{
+  const std::vector<double> numbers = ReadTable(session, fileName, 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+  {
+    points->InsertNextPoint(&numbers[i]);
+  }
+  vtkNew<vtkUnsignedCharArray> free;
+  session.Watch(phi, "query", [&] { phi->ArePointsFree(points, free); });
+  std::cout << "free\n";
+  for (vtkIdType i = 0; i < free->GetNumberOfValues(); ++i)
+  {
+    std::cout << static_cast<int>(free->GetValue(i)) << "\n";
+  }
+}
+
+void TellSegments(Session& session, vtkFreespaceUnion* phi, const std::string& fileName)
+{
+  const std::vector<double> numbers = ReadTable(session, fileName, 6);
+  vtkNew<vtkPoints> first, last;
+  first->SetDataTypeToDouble();
+  last->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < numbers.size(); i += 6)
+  {
+    first->InsertNextPoint(&numbers[i]);
+    last->InsertNextPoint(&numbers[i + 3]);
+  }
+  vtkNew<vtkDoubleArray> fractions;
+  session.Watch(phi, "query", [&] { phi->FirstBlocked(first, last, fractions); });
+  std::cout << "first_blocked\n";
+  std::cout.precision(10);
+  for (vtkIdType i = 0; i < fractions->GetNumberOfValues(); ++i)
+  {
+    std::cout << fractions->GetValue(i) << "\n";
+  }
+}
+
+}
+
+void AddQueryCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("query", "Ask which points and segments lie in free space");
+  command->add_option("maps", settings->maps, "What 'triangulate' wrote")
+    ->required()
+    ->type_name("MAPS.vtm");
+  auto* points =
+    command->add_option("--points", settings->points, "Rows x,y,z; tells 1 for each that is free")
+      ->type_name("FILE.csv");
+  auto* segments = command
+                     ->add_option("--segments", settings->segments,
+                       "Rows x0,y0,z0,x1,y1,z1; tells where each first leaves free space, as a "
+                       "fraction of it; inf: nowhere")
+                     ->type_name("FILE.csv");
+  points->excludes(segments);
+  command
+    ->add_option("--hull-margin", settings->hullMargin,
+      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
+    ->check(NonNegative())
+    ->capture_default_str();
+  command
+    ->add_option(
+      "--min-views", settings->minimumViews, "Views that must agree that a point is free")
+    ->check(Positive())
+    ->capture_default_str();
+  command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv");
+  command->callback(session.Defer(
+    [settings, &session]()
+    {
+      if (settings->points.empty() && settings->segments.empty())
+      {
+        throw Error("There is nothing to ask: give --points or --segments.");
+      }
+      vtkNew<vtkFreespaceUnion> phi;
+      phi->SetMaps(ReadMaps(session, settings->maps));
+      phi->SetHullMargin(settings->hullMargin);
+      phi->SetMinimumViews(settings->minimumViews);
+      session.Watch(phi, "build", [&] { phi->Update(); });
+      settings->points.empty() ? TellSegments(session, phi, settings->segments)
+                               : TellPoints(session, phi, settings->points);
+    }));
+}
+
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Common/Error.h"
+#include "Data/SurfaceViewpoint.h"
+#include "Output/Picture.h"
+#include "Output/SurfaceFiles.h"
+#include "Session/Session.h"
+#include "Stages/ContourStage.h"
+#include "Stages/DensifyStage.h"
+#include "Stages/SparseStage.h"
+#include "Stages/StereoStage.h"
+#include "Stages/TriangulateStage.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+#include <vtkSparseModelReader.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string scene;
+  std::string output;
+  std::string picture;
+  StereoStage stereo;
+  SparseStage sparse;
+  DensifyStage densify;
+  TriangulateStage triangulate;
+  ContourStage contour;
+};
+
+void AddOptions(CLI::App& command, Settings& settings)
+{
+  command
+    .add_option("scene", settings.scene,
+      "A scene.json, or a structure-from-motion model: a folder with COLMAP's files, a bundle.out "
+      "or a .nvm")
+    ->required()
+    ->type_name("SCENE.json|MODEL");
+  command.add_option("-o,--output", settings.output, "The surface to write (.ply .stl .obj .vtp)")
+    ->required()
+    ->type_name("MESH.ply");
+  command
+    .add_option("--picture", settings.picture,
+      "Write a picture of the surface, too, from a viewpoint between the cameras")
+    ->type_name("OUT.png");
+  settings.stereo.AddOptions(command);
+  settings.sparse.AddOptions(command);
+  settings.densify.AddOptions(command);
+  settings.triangulate.AddOptions(command);
+  settings.contour.AddOptions(command);
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Settings& settings)
+{
+  if (vtkSparseModelReader::CanReadFile(settings.scene))
+  {
+    const auto features = settings.sparse.Run(session, settings.scene);
+    return settings.densify.IsWanted()
+      ? settings.densify.Run(session, settings.scene, features, settings.stereo)
+      : features;
+  }
+  if (settings.densify.IsWanted())
+  {
+    throw Error("--densify is for a structure-from-motion model, and " + settings.scene +
+      " is none: the features of a scene.json come from its photographs anyway.");
+  }
+  return settings.stereo.Run(session, settings.scene);
+}
+
+// That of the photographs, unless it is very large.
+std::array<int, 2> SizeLike(const Camera& camera)
+{
+  constexpr double most = 2000;
+  const double scale = std::min(1.0, most / std::max(camera.width, camera.height));
+  return { std::max(1, static_cast<int>(scale * camera.width)),
+    std::max(1, static_cast<int>(scale * camera.height)) };
+}
+
+void Reconstruct(Session& session, const Settings& settings)
+{
+  CheckSurfaceName(settings.output);
+  if (!settings.picture.empty())
+  {
+    CheckPictureName(settings.picture);
+  }
+  const auto features = FindFeatures(session, settings);
+  const auto maps = settings.triangulate.Run(session, features);
+  const auto surface = settings.contour.Run(session, maps);
+  WriteSurface(session, surface, settings.output);
+  if (!settings.picture.empty())
+  {
+    PictureLook look;
+    if (const auto viewpoint = ViewpointOf(surface))
+    {
+      look.size = SizeLike(*viewpoint);
+    }
+    WritePicture(session, surface, nullptr, look, settings.picture);
+  }
+}
+
+}
+
+void AddReconstructCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command = program.add_subcommand("reconstruct",
+    "Make a surface from photographs or a structure-from-motion model: all stages in one");
+  AddOptions(*command, *settings);
+  command->footer("Example:\n"
+                  "  freespace reconstruct scene.json -o mesh.ply --cells 256 --picture mesh.png\n"
+                  "  freespace reconstruct colmap/sparse/0 -o mesh.ply");
+  command->callback(session.Defer([settings, &session]() { Reconstruct(session, *settings); }));
+}
+
+}

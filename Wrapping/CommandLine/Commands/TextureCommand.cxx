@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Commands/Commands.h"
+
+#include "Common/Error.h"
+#include "Output/SurfaceFiles.h"
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPhotographReader.h>
+#include <vtkPolyData.h>
+#include <vtkTextureBaker.h>
+#include <vtkTexturedSurfaceWriter.h>
+
+#include <memory>
+#include <sstream>
+
+namespace freespace
+{
+
+namespace
+{
+
+struct Settings
+{
+  std::string mesh;
+  std::string scene;
+  std::string output;
+  double texel = 0;
+  int largest = 8192;
+};
+
+void AddOptions(CLI::App& command, Settings& settings)
+{
+  command.add_option("mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
+    ->required()
+    ->type_name("MESH.ply");
+  command.add_option("--scene", settings.scene, "The scene whose photographs colour it")
+    ->required()
+    ->type_name("SCENE.json");
+  command
+    .add_option("-o,--output", settings.output,
+      "The model to write: .glb, .obj with .mtl and .png, or .ply with colours of points")
+    ->required()
+    ->type_name("MODEL.glb");
+  command
+    .add_option("--texel", settings.texel,
+      "Side of a texel in the scene's unit (0: as fine as the photographs)")
+    ->check(NonNegative())
+    ->capture_default_str();
+  command.add_option("--largest", settings.largest, "Longest side of the texture, texels")
+    ->check(CLI::Range(16, 32768))
+    ->capture_default_str();
+}
+
+void Texture(Session& session, const Settings& settings)
+{
+  if (!vtkTexturedSurfaceWriter::CanWriteFile(settings.output))
+  {
+    throw Error(
+      "Cannot write '" + settings.output + "': a model's file name ends in .glb, .obj or .ply.");
+  }
+  const auto surface = ReadSurface(session, settings.mesh);
+  vtkNew<vtkPhotographReader> photographs;
+  photographs->SetFileName(settings.scene);
+  session.Run(photographs, "photographs");
+  vtkNew<vtkTextureBaker> baker;
+  baker->SetInputDataObject(surface);
+  baker->SetPhotographs(photographs->GetOutput());
+  baker->SetTexelSize(settings.texel);
+  baker->SetLargestTexture(settings.largest);
+  session.Run(baker, "texture");
+  if (baker->GetNumberOfCharts() == 0)
+  {
+    throw Error(
+      "No photograph of " + settings.scene + " sees the surface: it is of another place.");
+  }
+  const int* size = baker->GetTexture()->GetDimensions();
+  std::ostringstream told;
+  told << baker->GetNumberOfCharts() << " charts, " << size[0] << " x " << size[1]
+       << " texels of side " << baker->GetBakedTexelSize();
+  session.Log(told.str());
+  vtkNew<vtkTexturedSurfaceWriter> writer;
+  writer->SetInputDataObject(0, baker->GetOutput());
+  writer->SetInputDataObject(1, baker->GetTexture());
+  writer->SetFileName(settings.output);
+  session.Write(writer);
+}
+
+}
+
+void AddTextureCommand(CLI::App& program, Session& session)
+{
+  auto settings = std::make_shared<Settings>();
+  CLI::App* command =
+    program.add_subcommand("texture", "Give a surface a texture that other programs can show");
+  AddOptions(*command, *settings);
+  command->footer("Examples:\n"
+                  "  freespace texture mesh.ply --scene scene.json -o model.glb\n"
+                  "  freespace texture mesh.ply --scene scene.json -o model.obj");
+  command->callback(session.Defer([settings, &session]() { Texture(session, *settings); }));
+}
+
+}

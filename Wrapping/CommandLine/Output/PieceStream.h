@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_PieceStream_h
+#define freespace_PieceStream_h
+
+#include "Common/AtomicOutput.h"
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace freespace
+{
+
+/// Writes a contour to a .ply a piece at a time, so that only one has to be held: the file is, byte for
+/// byte, what the writer makes of the whole surface. Only points that pieces share stay in memory. The
+/// disk has to hold the surface about twice until the end.
+class PieceStream
+{
+public:
+  /// Throws Error when the file's folder cannot be written.
+  explicit PieceStream(const std::string& fileName);
+
+  /// The next piece, in their order. Throws Error when the disk is full, or there are more points than a
+  /// .ply can count.
+  void Add(vtkPolyData* piece);
+
+  /// Puts the file together, with a comment unless that is empty. Throws Error when the disk is full.
+  void Finish(const std::string& comment = "");
+
+  std::int64_t NumberOfPoints() const { return this->Points; }
+  std::int64_t NumberOfTriangles() const { return this->Triangles; }
+
+private:
+  using Position = std::array<double, 3>;
+
+  void FindShared();
+  void WriteWhole(const std::string& fileName, const std::string& comment);
+  void Check(bool isGood) const;
+
+  std::string Name;
+  AtomicOutput Target;
+  std::fstream PointFile;    ///< three doubles each
+  std::fstream TriangleFile; ///< three 32-bit integers each, -1 - n for shared point n
+  std::map<Position, std::int32_t> Shared;
+  std::vector<std::int32_t> SharedPlace;
+  std::int64_t Points = 0, Triangles = 0;
+};
+
+}
+
+#endif

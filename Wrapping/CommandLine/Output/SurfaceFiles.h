@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_SurfaceFiles_h
+#define freespace_SurfaceFiles_h
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+class vtkPolyData;
+
+namespace freespace
+{
+
+class Session;
+
+/// Reads a surface (.ply .stl .obj .vtp).
+vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fileName);
+
+/// Writes a surface; the ending of the file name chooses the format.
+void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName);
+
+/// Throws Error when a file's folder cannot be written: before hours of work, not after.
+void CheckOutputFolder(const std::string& fileName);
+
+/// The same, and unless the ending of a surface's file name is known.
+void CheckSurfaceName(const std::string& fileName);
+
+}
+
+#endif

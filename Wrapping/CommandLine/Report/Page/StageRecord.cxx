@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report/Page/StageRecord.h"
+
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace freespace
+{
+
+namespace fs = std::filesystem;
+
+fs::file_time_type NewestTime(const std::string& path)
+{
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+  {
+    const fs::file_time_type time = fs::last_write_time(path, error);
+    return error ? fs::file_time_type::min() : time;
+  }
+  fs::file_time_type newest = fs::file_time_type::min();
+  for (const auto& entry : fs::recursive_directory_iterator(path, error))
+  {
+    if (entry.is_regular_file(error))
+    {
+      newest = std::max(newest, entry.last_write_time(error));
+    }
+  }
+  return newest;
+}
+
+StageRecord::StageRecord(const std::string& file)
+  : File(file)
+{
+  try
+  {
+    std::ifstream stream(file);
+    const nlohmann::json record = nlohmann::json::parse(stream);
+    for (const auto& [name, stage] : record.at("stages").items())
+    {
+      this->Stages[name] = { stage.at("options").get<std::vector<std::string>>(),
+        stage.at("seconds").get<double>() };
+    }
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    this->Stages.clear();
+  }
+}
+
+bool StageRecord::IsCurrent(const std::string& stage, const std::vector<std::string>& options,
+  const std::string& output, const std::vector<std::string>& inputs) const
+{
+  const auto found = this->Stages.find(stage);
+  if (found == this->Stages.end() || found->second.options != options || !fs::exists(output))
+  {
+    return false;
+  }
+  const fs::file_time_type made = NewestTime(output);
+  return std::all_of(inputs.begin(), inputs.end(),
+    [made](const std::string& input) { return fs::exists(input) && NewestTime(input) <= made; });
+}
+
+double StageRecord::Seconds(const std::string& stage) const
+{
+  const auto found = this->Stages.find(stage);
+  return found == this->Stages.end() ? 0 : found->second.seconds;
+}
+
+void StageRecord::Set(
+  const std::string& stage, const std::vector<std::string>& options, double seconds)
+{
+  this->Stages[stage] = { options, seconds };
+  this->Write();
+}
+
+void StageRecord::Write() const
+{
+  nlohmann::json record;
+  for (const auto& [name, stage] : this->Stages)
+  {
+    record["stages"][name] = { { "options", stage.options }, { "seconds", stage.seconds } };
+  }
+  AtomicOutput target(this->File);
+  std::ofstream file(target.Path());
+  file << record.dump(1, ' ', true, nlohmann::json::error_handler_t::replace) << "\n";
+  file.close();
+  if (!file)
+  {
+    throw Error("Cannot write " + this->File + ": the disk is full or failed.");
+  }
+  target.Commit();
+}
+
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_StageCache_h
+#define freespace_StageCache_h
+
+#include "Stages/ContourStage.h"
+#include "Stages/StereoStage.h"
+#include "Stages/TriangulateStage.h"
+
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+struct Scene;
+
+/// How long a stage took, and whether in this run.
+struct StageTime
+{
+  std::string name;
+  double seconds = 0;
+  std::string when; ///< "in this run", or "in an earlier run", or "given" and of unknown time
+};
+
+/// Features, disparity maps and surface of a scene in a folder, where they are made or taken up.
+class StageCache
+{
+public:
+  /// The options of the stages, those of reconstruct, and files that take a stage's place.
+  void AddOptions(CLI::App& command);
+
+  /// Reads the files that take a stage's place: what is wrong with them is told before hours of work. Throws
+  /// Error naming the file.
+  void ReadGiven(Session& session);
+
+  /// Makes what is not given and not in the folder, or older than what it is made from, or was made with other
+  /// options or by another version. Throws Error when a stage fails.
+  void Run(Session& session, const Scene& scene, const std::string& folder);
+
+  vtkMultiBlockDataSet* Features() const { return this->FoundFeatures; }
+  vtkMultiBlockDataSet* Maps() const { return this->FoundMaps; }
+  vtkPolyData* Surface() const { return this->FoundSurface; }
+  const std::vector<StageTime>& Times() const { return this->Taken; }
+
+  /// Where they lie.
+  std::string FeaturesFile(const std::string& folder) const;
+  std::string MapsFile(const std::string& folder) const;
+  std::string SurfaceFile(const std::string& folder) const;
+
+  /// The commands that make them, a stage at a time, for a shell.
+  std::string StageCommands(const std::string& scene, const std::string& folder) const;
+
+  /// The options of all stages that were given, as words.
+  std::vector<std::string> Options() const;
+
+  /// Whether no file takes a stage's place.
+  bool AreAllMade() const;
+
+private:
+  CLI::App* Command = nullptr;
+  StereoStage Stereo;
+  TriangulateStage Triangulate;
+  ContourStage Contour;
+  std::string GivenFeatures;
+  std::string GivenMaps;
+  std::string GivenSurface;
+  bool Fresh = false;
+
+  vtkSmartPointer<vtkMultiBlockDataSet> FoundFeatures;
+  vtkSmartPointer<vtkMultiBlockDataSet> FoundMaps;
+  vtkSmartPointer<vtkPolyData> FoundSurface;
+  std::vector<StageTime> Taken;
+};
+
+}
+
+#endif

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report/TruthComparison.h"
+
+#include "Common/Error.h"
+#include "Freespace/FeatureHull.h"
+#include "PhotographBlocks.h"
+#include "Texture/DisparityImage.h"
+
+#include <vtkCellArray.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticCellLocator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace freespace
+{
+
+namespace
+{
+
+constexpr double mostRays = 60000;
+
+/// What one ray meets.
+struct Hit
+{
+  Eigen::Vector3d truth;
+  Eigen::Vector3d surface; ///< not finite where the ray misses it
+  double depth = 0;        ///< of the truth
+  double error = 0;        ///< distance along the ray; infinite where it misses the surface
+};
+
+int LatticeStep(const std::vector<Camera>& cameras)
+{
+  double pixels = 0;
+  for (const Camera& camera : cameras)
+  {
+    pixels += double(camera.width) * camera.height;
+  }
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / mostRays))));
+}
+
+void AddHits(const TriangleMesh& surface, const TriangleMesh& truth, const Camera& camera, int step,
+  const FeatureHull& hull, std::vector<Hit>& hits)
+{
+  const DisparityImage trueImage = RenderDisparity(truth, camera);
+  const DisparityImage image = RenderDisparity(surface, camera);
+  for (int row = step / 2; row < camera.height; row += step)
+  {
+    for (int column = step / 2; column < camera.width; column += step)
+    {
+      const double trueDisparity = trueImage.At(column, row);
+      const double disparity = image.At(column, row);
+      if (trueDisparity <= 0)
+      {
+        continue;
+      }
+      const Eigen::Vector2d pixel(column + 0.5, row + 0.5);
+      const Eigen::Vector3d point = camera.Unproject(pixel, 1 / trueDisparity);
+      const int plane = hull.NearestPlane(point);
+      if (plane < 0 || hull.Distance(plane, point) > 0)
+      {
+        continue;
+      }
+      const double depth = disparity > 0 ? 1 / disparity : std::numeric_limits<double>::infinity();
+      hits.push_back({ point, camera.Unproject(pixel, depth), 1 / trueDisparity,
+        (depth - 1 / trueDisparity) * camera.Ray(pixel).norm() });
+    }
+  }
+}
+
+double Median(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto half = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+vtkSmartPointer<vtkPolyData> PolyDataFromMesh(const TriangleMesh& mesh)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    points->InsertNextPoint(point.data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+  {
+    cells->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+  }
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(points);
+  surface->SetPolys(cells);
+  return surface;
+}
+
+// The share of points that are nearer to a surface than each limit; those that are not finite, where
+// there is nothing to be judged, have no part in it.
+std::array<double, 3> ShareNear(const std::vector<Eigen::Vector3d>& points,
+  const TriangleMesh& mesh, const std::array<double, 3>& limits)
+{
+  if (mesh.triangles.empty())
+  {
+    return {};
+  }
+  const auto surface = PolyDataFromMesh(mesh);
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(surface);
+  locator->BuildLocator();
+  vtkNew<vtkGenericCell> cell;
+  std::array<std::size_t, 3> near{};
+  std::size_t count = 0;
+  for (const Eigen::Vector3d& point : points)
+  {
+    if (!point.allFinite())
+    {
+      continue;
+    }
+    ++count;
+    double nearest[3];
+    vtkIdType cellId = -1;
+    int subId = 0;
+    double squared = 0;
+    // What is farther off than the last limit need not be found.
+    if (locator->FindClosestPointWithinRadius(
+          const_cast<double*>(point.data()), limits[2], nearest, cell, cellId, subId, squared))
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        near[i] += std::sqrt(squared) < limits[i] ? 1 : 0;
+      }
+    }
+  }
+  std::array<double, 3> shares{};
+  for (int i = 0; i < 3; ++i)
+  {
+    shares[i] = count > 0 ? double(near[i]) / count : 0;
+  }
+  return shares;
+}
+
+void SetRayFigures(const std::vector<Hit>& hits, TruthFigures& figures)
+{
+  std::vector<double> errors;
+  for (const Hit& hit : hits)
+  {
+    const double error = std::abs(hit.error);
+    for (int i = 0; i < 3; ++i)
+    {
+      figures.within[i] += error < figures.limits[i] ? 1.0 / hits.size() : 0;
+    }
+    if (std::isfinite(error))
+    {
+      errors.push_back(error);
+      figures.carved += hit.error > figures.limits[2] ? 1.0 / hits.size() : 0;
+      figures.bulging += hit.error < -figures.limits[2] ? 1.0 / hits.size() : 0;
+    }
+  }
+  figures.covered = double(errors.size()) / hits.size();
+  figures.medianError = Median(errors);
+}
+
+}
+
+double TruthFigures::F(int limit) const
+{
+  const double sum = this->accuracy[limit] + this->completeness[limit];
+  return sum > 0 ? 2 * this->accuracy[limit] * this->completeness[limit] / sum : 0;
+}
+
+TruthFigures CompareWithTruth(vtkPolyData* surface, vtkPolyData* truth,
+  const std::vector<Camera>& cameras, const std::vector<Eigen::Vector3d>& features)
+{
+  const TriangleMesh mesh = MeshFromPolyData(surface);
+  const TriangleMesh trueMesh = MeshFromPolyData(truth);
+  const FeatureHull hull(features, 0);
+  const int step = LatticeStep(cameras);
+  std::vector<Hit> hits;
+  for (const Camera& camera : cameras)
+  {
+    AddHits(mesh, trueMesh, camera, step, hull, hits);
+  }
+  if (hits.empty())
+  {
+    throw Error("No camera sees the true surface within the features' hull: it is not this "
+                "scene's, or in other units.");
+  }
+  std::vector<double> depths;
+  std::vector<Eigen::Vector3d> truePoints;
+  std::vector<Eigen::Vector3d> points;
+  for (const Hit& hit : hits)
+  {
+    depths.push_back(hit.depth);
+    truePoints.push_back(hit.truth);
+    points.push_back(hit.surface);
+  }
+  TruthFigures figures;
+  figures.rays = hits.size();
+  figures.medianDepth = Median(depths);
+  figures.limits = { 0.001 * figures.medianDepth, 0.002 * figures.medianDepth,
+    0.005 * figures.medianDepth };
+  SetRayFigures(hits, figures);
+  figures.accuracy = ShareNear(points, trueMesh, figures.limits);
+  figures.completeness = ShareNear(truePoints, mesh, figures.limits);
+  return figures;
+}
+
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_NumberValidators_h
+#define freespace_NumberValidators_h
+
+#include <CLI/CLI.hpp>
+
+namespace freespace
+{
+
+/// Lets a finite number of 0 or more pass. CLI11's own NonNegativeNumber takes not-a-number, and tells its
+/// limits with 309 digits.
+CLI::Validator NonNegative();
+
+/// The same for a number above 0.
+CLI::Validator Positive();
+
+}
+
+#endif

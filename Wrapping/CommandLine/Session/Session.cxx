@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Session.h"
+
+#include "Common/Error.h"
+#include "Session/ErrorCollector.h"
+#include "Session/ProgressLine.h"
+#include "Session/Ranks.h"
+#include "Session/StderrCapture.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkFreespaceUnion.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSMPTools.h>
+#include <vtkWriter.h>
+
+#include <csignal>
+#include <iostream>
+
+namespace freespace
+{
+
+namespace
+{
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// The first interrupt asks the running stage to stop; a second one ends the program at once.
+void OnInterrupt(int signal)
+{
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+void OnProgress(vtkObject* caller, unsigned long, void* line, void* fraction)
+{
+  static_cast<ProgressLine*>(line)->Show(*static_cast<double*>(fraction));
+  if (!interrupted)
+  {
+    return;
+  }
+  if (auto* algorithm = vtkAlgorithm::SafeDownCast(caller))
+  {
+    algorithm->SetAbortExecute(1);
+  }
+  else if (auto* phi = vtkFreespaceUnion::SafeDownCast(caller))
+  {
+    phi->SetAbortExecute(1);
+  }
+}
+
+ErrorCollector* Collector()
+{
+  static vtkNew<ErrorCollector> collector;
+  return collector;
+}
+
+// Does some work with its progress shown, its errors collected and interrupts passed on. Returns what libraries
+// said meanwhile.
+std::vector<std::string> DoWatched(
+  vtkObject* worker, ProgressLine& line, const std::function<void()>& work)
+{
+  const StderrCapture words;
+  Collector()->Clear();
+  vtkNew<vtkCallbackCommand> onProgress;
+  onProgress->SetCallback(OnProgress);
+  onProgress->SetClientData(&line);
+  const unsigned long tag = worker->AddObserver(vtkCommand::ProgressEvent, onProgress);
+  work();
+  worker->RemoveObserver(tag);
+  return words.Lines();
+}
+
+}
+
+void Session::AddOptions(CLI::App& program)
+{
+  program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
+  program.add_option("--threads", this->Threads, "Threads to use; 0 means all cores")
+    ->check(CLI::Range(0, 1024))
+    ->capture_default_str();
+}
+
+void Session::Begin()
+{
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkOutputWindow::SetInstance(Collector());
+  vtkSMPTools::Initialize(this->Threads);
+  std::signal(SIGINT, OnInterrupt);
+  std::signal(SIGTERM, OnInterrupt);
+  std::signal(SIGXFSZ, SIG_IGN); // a write fails then, which can be told
+}
+
+std::function<void()> Session::Defer(std::function<void()> action, Sharing sharing)
+{
+  return [this, action, sharing]()
+  {
+    this->Action = action;
+    this->ActionSharing = sharing;
+  };
+}
+
+void Session::RunCommand()
+{
+  if (LaunchedRank() > 0 && this->ActionSharing == Sharing::FirstProcess)
+  {
+    return;
+  }
+  this->Quiet = this->Quiet || LaunchedRank() > 0;
+  this->Begin();
+  this->Action();
+}
+
+void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)
+{
+  ProgressLine line(stage, this->Quiet);
+  const std::vector<std::string> words = DoWatched(worker, line, work);
+  this->ThrowIfFailed(); // which tells better what libraries may have said, too
+  line.Finish();
+  for (const std::string& word : words)
+  {
+    this->Log(
+      (word.rfind("freespace: ", 0) == 0 ? "" : "freespace: warning: " + stage + ": ") + word);
+  }
+}
+
+void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
+{
+  this->Watch(algorithm, stage,
+    [&]
+    {
+      if (pieces > 1)
+      {
+        algorithm->UpdatePiece(piece, pieces, 0);
+      }
+      else
+      {
+        algorithm->Update();
+      }
+    });
+}
+
+void Session::Write(vtkWriter* writer)
+{
+  ProgressLine line("write", this->Quiet);
+  bool written = false;
+  DoWatched(writer, line, [&] { written = writer->Write() != 0; });
+  this->ThrowIfFailed();
+  if (!written)
+  {
+    throw Error("The output could not be written.");
+  }
+}
+
+void Session::ThrowIfFailed()
+{
+  if (interrupted)
+  {
+    throw Aborted();
+  }
+  const std::string error = Collector()->FirstError();
+  if (!error.empty())
+  {
+    throw Error(error);
+  }
+}
+
+void Session::Log(const std::string& line) const
+{
+  if (!this->Quiet)
+  {
+    std::cerr << line << std::endl;
+  }
+}
+
+}

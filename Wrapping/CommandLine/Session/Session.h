@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Session_h
+#define freespace_Session_h
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+class vtkAlgorithm;
+class vtkObject;
+class vtkWriter;
+
+namespace freespace
+{
+
+/// What all commands share: the options --quiet and --threads, and running VTK algorithms so that
+/// their progress is shown, their errors become one sentence and an interrupt stops them cleanly.
+class Session
+{
+public:
+  /// Adds the shared options to the program.
+  void AddOptions(CLI::App& program);
+
+  /// Which processes do a command's work when mpiexec started several.
+  enum class Sharing
+  {
+    FirstProcess,
+    AllProcesses ///< they share it out, see Ranks
+  };
+
+  /// What a command does, to be done once the command line and the config file are read whole: CLI11
+  /// calls back for a section of the config file before it has read the rest.
+  std::function<void()> Defer(
+    std::function<void()> action, Sharing sharing = Sharing::FirstProcess);
+
+  /// Does what the command was to do.
+  void RunCommand();
+
+  /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
+  /// first error said.
+  void Run(vtkAlgorithm* algorithm, const std::string& stage, int piece = 0, int pieces = 1);
+
+  /// Does some work of an algorithm, or of a vtkFreespaceUnion, under a stage's name: its progress is
+  /// shown, and an interrupt sets its AbortExecute. Throws Error like Run.
+  void Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work);
+
+  /// Runs a writer. Throws Error like Run.
+  void Write(vtkWriter* writer);
+
+  /// Throws Error with the first VTK error since the last stage began, if there was one.
+  void ThrowIfFailed();
+
+  /// A line of the log, not shown when quiet.
+  void Log(const std::string& line) const;
+
+private:
+  void Begin();
+
+  bool Quiet = false;
+  int Threads = 0;
+  Sharing ActionSharing = Sharing::FirstProcess;
+  std::function<void()> Action;
+};
+
+}
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stages/ContourStage.h"
+
+#include "Common/FileExtension.h"
+#include "Data/SurfaceViewpoint.h"
+#include "Output/PieceStream.h"
+#include "Output/Viewpoint.h"
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkAppendPiecesFilter.h>
+#include <vtkBisectionContourFilter.h>
+#include <vtkFreespaceUnion.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSimplifySurfaceFilter.h>
+
+#include <cmath>
+
+#include <unistd.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+// What the surface in a .ply of 2^31 vertices would take as one, in MiB.
+constexpr double LargestPly = 150000;
+
+// What no cell of a lattice exceeds, in MiB: five triangles.
+constexpr double WorstCell = 5 * 60.0 / (1024 * 1024);
+
+// Three quarters of the machine's memory, in MiB.
+double ShareOfMemory()
+{
+  const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+  return 0.75 * pages * sysconf(_SC_PAGESIZE) / (1024 * 1024);
+}
+
+}
+
+void ContourStage::AddOptions(CLI::App& command)
+{
+  command.add_option("--cells", this->Cells, "Lattice cells along the longest side")
+    ->check(CLI::Range(1, 65536))
+    ->capture_default_str()
+    ->group("Surface");
+  command
+    .add_option("--memory-limit", this->MemoryLimit,
+      "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters "
+      "of what the machine has")
+    ->check(NonNegative())
+    ->group("Surface");
+  command
+    .add_option("--hull-margin", this->HullMargin,
+      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper; "
+      "otherwise somewhat more than a lattice cell")
+    ->check(CLI::Range(0.0, 10.0))
+    ->group("Surface");
+  command
+    .add_option("--min-views", this->MinimumViews, "Views that must agree that a point is free")
+    ->check(Positive())
+    ->capture_default_str()
+    ->group("Surface");
+  command
+    .add_flag("--no-sharp", this->NotSharp,
+      "Do not rebuild sharp edges and corners between the lattice's vertices")
+    ->group("Surface");
+  command
+    .add_option("--simplify", this->Simplify,
+      "Leave out vertices where the surface is flat; it moves by this length at most; 0: none")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Surface");
+  command
+    .add_flag("--observed", this->Observed,
+      "Keep only what was seen: an open surface without the hull and silhouette walls")
+    ->group("Surface");
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
+{
+  const auto surface =
+    this->Join(session, { this->RunPiece(session, this->MakeFilter(maps), 0, 1) });
+  AddViewpoint(maps, surface);
+  return surface;
+}
+
+vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
+  vtkMultiBlockDataSet* maps) const
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(maps);
+  // A floor on the hull has to be thick enough for the lattice to see it, and no thicker.
+  constexpr double cells = 1.25;
+  phi->SetHullMargin(this->HullMargin < 0 ? cells / this->Cells : this->HullMargin);
+  phi->SetMinimumViews(this->MinimumViews);
+  auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(this->Cells);
+  contour->SetSharpEdges(!this->NotSharp);
+  contour->SetMemoryLimit(this->MemoryLimit < 0 ? ShareOfMemory() : this->MemoryLimit);
+  return contour;
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
+  Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const
+{
+  contour->SetObservedOnly(this->Observed && pieces == 1);
+  session.Run(contour, "contour", piece, pieces);
+  return contour->GetOutput();
+}
+
+bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
+  vtkMultiBlockDataSet* maps, const std::string& fileName) const
+{
+  const double limit = contour->GetMemoryLimit();
+  // Most lattices are too small to have such a surface.
+  const double worst = std::pow(this->Cells, 3) * WorstCell;
+  if (limit == 0 || worst <= limit || this->Observed || this->Simplify > 0 ||
+    LowerCaseExtension(fileName) != ".ply")
+  {
+    return false;
+  }
+  double needed = 0;
+  session.Watch(contour, "estimate", [&] { needed = contour->EstimateMemory(); });
+  if (needed <= limit || needed > LargestPly)
+  {
+    return false;
+  }
+  // Pieces differ in size.
+  const int pieces = static_cast<int>(std::ceil(2 * needed / limit));
+  PieceStream stream(fileName);
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    session.Run(contour,
+      "contour, piece " + std::to_string(piece + 1) + " of " + std::to_string(pieces), piece,
+      pieces);
+    stream.Add(contour->GetOutput());
+  }
+  vtkNew<vtkPolyData> nothingButViewpoint;
+  AddViewpoint(maps, nothingButViewpoint);
+  stream.Finish(ViewpointComment(nothingButViewpoint));
+  session.Log("contour: " + std::to_string(stream.NumberOfPoints()) + " vertices, " +
+    std::to_string(stream.NumberOfTriangles()) + " triangles");
+  session.Log("wrote " + fileName);
+  return true;
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::Join(
+  Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+{
+  vtkSmartPointer<vtkPolyData> surface = pieces.front();
+  if (pieces.size() > 1)
+  {
+    vtkNew<vtkAppendPiecesFilter> append;
+    append->SetObservedOnly(this->Observed);
+    for (vtkPolyData* piece : pieces)
+    {
+      append->AddInputData(piece);
+    }
+    session.Run(append, "join");
+    surface = append->GetOutput();
+  }
+  session.Log("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
+    std::to_string(surface->GetNumberOfCells()) + " triangles");
+  if (this->Simplify > 0)
+  {
+    vtkNew<vtkSimplifySurfaceFilter> simplify;
+    simplify->SetInputData(surface);
+    simplify->SetDistance(this->Simplify);
+    session.Run(simplify, "simplify");
+    surface = simplify->GetOutput();
+    session.Log("simplify: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
+      std::to_string(surface->GetNumberOfCells()) + " triangles");
+  }
+  return surface;
+}
+
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_ContourStage_h
+#define freespace_ContourStage_h
+
+#include <CLI/CLI.hpp>
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkBisectionContourFilter;
+class vtkMultiBlockDataSet;
+class vtkPolyData;
+
+namespace freespace
+{
+
+class Session;
+
+/// disparity maps -> surface: vtkFreespaceUnion, vtkBisectionContourFilter.
+///
+/// Has the options that its own command and `reconstruct` share. Run throws Error when it fails.
+class ContourStage
+{
+public:
+  void AddOptions(CLI::App& command);
+  vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
+
+  /// What makes it of the maps.
+  vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
+
+  /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
+  /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
+  /// RunPiece tells why.
+  bool Stream(Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps,
+    const std::string& fileName) const;
+
+  /// One of the pieces that Join makes the same surface of.
+  vtkSmartPointer<vtkPolyData> RunPiece(
+    Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const;
+  vtkSmartPointer<vtkPolyData> Join(
+    Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
+
+private:
+  int Cells = 256;
+  double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
+  double HullMargin = -1;  // below 0: somewhat more than a cell
+  int MinimumViews = 1;
+  bool NotSharp = false;
+  double Simplify = 0.0;
+  bool Observed = false;
+};
+
+}
+
+#endif

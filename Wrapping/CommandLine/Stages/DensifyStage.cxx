@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stages/DensifyStage.h"
+
+#include "Common/Error.h"
+#include "Data/ViewBlocks.h"
+#include "Session/Session.h"
+#include "Stages/StereoStage.h"
+
+#include <vtkCameraReader.h>
+#include <vtkClusterProposal.h>
+#include <vtkMergeViewsFilter.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+
+#include <filesystem>
+
+#include <stdlib.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+// A folder for the scene.json that stands between the choice of clusters and the stereo.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+  {
+    std::string pattern =
+      (std::filesystem::temp_directory_path() / "freespace-densify-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+    {
+      throw Error("Cannot write to " + std::filesystem::temp_directory_path().string() + ".");
+    }
+    this->Folder = pattern;
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->Folder, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::string Scene() const { return (this->Folder / "scene.json").string(); }
+
+private:
+  std::filesystem::path Folder;
+};
+
+// Whether any of the model's photographs is there.
+bool HasPhotographs(Session& session, const std::string& model, const std::string& images)
+{
+  vtkNew<vtkCameraReader> cameras;
+  cameras->SetFileName(model);
+  session.Run(cameras, "cameras");
+  vtkMultiBlockDataSet* views = cameras->GetOutput();
+  for (unsigned int i = 0; i < views->GetNumberOfBlocks(); ++i)
+  {
+    if (std::filesystem::is_regular_file(std::filesystem::path(images) / BlockName(views, i)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+}
+
+void DensifyStage::AddOptions(CLI::App& command)
+{
+  command
+    .add_option("--densify", this->Images,
+      "The folder of the model's photographs: add what edge stereo finds in them")
+    ->check(CLI::ExistingDirectory)
+    ->type_name("IMAGES")
+    ->group("Structure-from-motion model");
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const std::string& model,
+  vtkMultiBlockDataSet* sparse, const StereoStage& stereo) const
+{
+  if (!HasPhotographs(session, model, this->Images))
+  {
+    throw Error("Cannot densify: the folder " + this->Images + " has none of the photographs of " +
+      model + ".");
+  }
+  const ScratchFolder scratch;
+  vtkNew<vtkClusterProposal> proposal;
+  proposal->SetModel(model);
+  proposal->SetImages(this->Images);
+  proposal->Propose();
+  try
+  {
+    session.ThrowIfFailed();
+  }
+  catch (const Error& error)
+  {
+    // The model and the folder have been read before: its photographs do not suit.
+    session.Log(std::string("densify: nothing is added. ") + error.what());
+    return sparse;
+  }
+  proposal->WriteScene(scratch.Scene());
+  session.ThrowIfFailed();
+  const auto edges = stereo.Run(session, scratch.Scene());
+  vtkNew<vtkMergeViewsFilter> merge;
+  merge->AddInputDataObject(sparse);
+  merge->AddInputDataObject(edges);
+  session.Run(merge, "merge");
+  vtkSmartPointer<vtkMultiBlockDataSet> features = merge->GetOutput();
+  session.Log("densify: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
+    std::to_string(features->GetNumberOfPoints()) + " features");
+  return features;
+}
+
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stages/SparseStage.h"
+
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkFeatureSupportFilter.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkSparseModelReader.h>
+
+namespace freespace
+{
+
+void SparseStage::AddOptions(CLI::App& command)
+{
+  command.add_option("--min-track", this->MinimumTrackLength, "Images that must see a point")
+    ->check(Positive())
+    ->capture_default_str()
+    ->group("Structure-from-motion model");
+  command.add_option("--max-error", this->MaximumError, "Largest reprojection error, pixels")
+    ->check(Positive())
+    ->capture_default_str()
+    ->group("Structure-from-motion model");
+  command
+    .add_option("--min-angle", this->MinimumAngle,
+      "The widest angle between two rays to a point must be so large, degrees; the wider half of "
+      "the points counts anyway")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Structure-from-motion model");
+  command
+    .add_option("--min-support", this->SupportNeighbors,
+      "Of the dozen features about one so many must be about as far away; 0 keeps all")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Structure-from-motion model");
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
+  Session& session, const std::string& model) const
+{
+  vtkNew<vtkSparseModelReader> reader;
+  reader->SetFileName(model);
+  reader->SetMinimumTrackLength(this->MinimumTrackLength);
+  reader->SetMaximumError(this->MaximumError);
+  reader->SetMinimumAngle(this->MinimumAngle);
+  session.Run(reader, "sparse");
+  vtkNew<vtkFeatureSupportFilter> support;
+  support->SetInputConnection(reader->GetOutputPort());
+  support->SetRadiusInSpacings(2);
+  support->SetDisparityTolerance(0.05);
+  support->SetMinimumNeighbors(this->SupportNeighbors);
+  session.Run(support, "support");
+  vtkSmartPointer<vtkMultiBlockDataSet> features = support->GetOutput();
+  session.Log("sparse: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
+    std::to_string(features->GetNumberOfPoints()) + " features");
+  return features;
+}
+
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stages/TriangulateStage.h"
+
+#include "Session/NumberValidators.h"
+#include "Session/Session.h"
+
+#include <vtkDelaunayDisparityFilter.h>
+#include <vtkFeatureSupportFilter.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+// Whether features are points of a structure-from-motion model rather than of edges.
+bool AreIsolated(vtkMultiBlockDataSet* features)
+{
+  for (unsigned int i = 0; i < features->GetNumberOfBlocks(); ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(features->GetBlock(i));
+    if (!view || !view->GetPointData()->HasArray("PointId"))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+}
+
+void TriangulateStage::AddOptions(CLI::App& command)
+{
+  command.add_option("--support-radius", this->SupportRadius, "Neighbourhood of a feature, pixels")
+    ->check(Positive())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--support", this->SupportNeighbors,
+      "Neighbours that must agree with a feature for it to count; 0 keeps all")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--tolerance", this->Tolerance,
+      "How far another view's feature may stick out of the free space, fraction of its depth")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--neighbors", this->SupportingNeighbors,
+      "Of a feature's six nearest ones so many must agree with it, or it is an outlier; 0 keeps "
+      "all")
+    ->check(CLI::Range(0, 6))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--see-through", this->SeeThroughViews,
+      "A feature that so many other views see through is an outlier; 0: none is")
+    ->check(CLI::Range(0, 1000))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--violating", this->ViolatingFeatures,
+      "A triangle that so many features of other views violate is wrong, and with it the feature "
+      "that "
+      "it goes back to; 0: none is")
+    ->check(CLI::Range(0, 1000))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--longest-edge", this->LongestEdge,
+      "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_option("--depth-ratio", this->GreatestDepthRatio,
+      "Triangles over a greater ratio of depths carve nothing; 0: no limit")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
+    .add_flag("--keep-edges", this->KeepEdges, "No triangle crosses an edge that the stereo saw")
+    ->group("Disparity maps");
+  command
+    .add_option("--background", this->Background,
+      "Continue the background behind occluding edges: on, off, or auto, which is off for the "
+      "isolated points of a structure-from-motion model")
+    ->check(CLI::IsMember({ "auto", "on", "off" }))
+    ->capture_default_str()
+    ->group("Disparity maps");
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
+  Session& session, vtkMultiBlockDataSet* features) const
+{
+  vtkNew<vtkFeatureSupportFilter> support;
+  support->SetInputDataObject(features);
+  support->SetRadius(this->SupportRadius);
+  support->SetMinimumNeighbors(this->SupportNeighbors);
+  session.Run(support, "support");
+  vtkNew<vtkDelaunayDisparityFilter> maps;
+  maps->SetInputConnection(support->GetOutputPort());
+  maps->SetTolerance(this->Tolerance);
+  maps->SetSupportingNeighbors(this->SupportingNeighbors);
+  maps->SetSeeThroughViews(this->SeeThroughViews);
+  maps->SetViolatingFeatures(this->ViolatingFeatures);
+  maps->SetLongestEdge(this->LongestEdge);
+  maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
+  maps->SetKeepEdges(this->KeepEdges);
+  maps->SetContinueBackground(
+    this->Background == "on" || (this->Background == "auto" && !AreIsolated(features)));
+  session.Run(maps, "triangulate");
+  vtkSmartPointer<vtkMultiBlockDataSet> result = maps->GetOutput();
+  session.Log("triangulate: " + std::to_string(result->GetNumberOfPoints()) + " points, " +
+    std::to_string(result->GetNumberOfCells()) + " triangles");
+  return result;
+}
+
+}

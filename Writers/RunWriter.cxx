@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunWriter.h"
+
+#include "Common/Error.h"
+
+#include <vtkErrorCode.h>
+#include <vtkWriter.h>
+
+namespace freespace
+{
+
+unsigned long RunWriter(vtkWriter* writer, const std::function<void()>& write)
+{
+  try
+  {
+    write();
+    return vtkErrorCode::NoError;
+  }
+  catch (const Aborted&)
+  {
+    return vtkErrorCode::UserError;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorWithObjectMacro(writer, << error.what());
+    return vtkErrorCode::CannotOpenFileError;
+  }
+}
+
+}
