@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
-#include <tuple>
 
 namespace freespace
 {
@@ -18,13 +17,14 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// As many as the labels of a surface can tell apart.
+/// The number of views that the labels of a surface can tell apart.
 constexpr std::size_t MostViews = 8191;
 
-/// So many views are asked for a point faster than they are found by an index.
+/// Up to this number of views, evaluating all is faster than a query of the octree.
 constexpr std::size_t FewViews = 12;
 
-/// From here on the matter is lost in the box around the hull: somebody took it for a length.
+/// A greater margin is no fraction but a length by mistake: the surface would be lost in the hull's
+/// box.
 constexpr double MostMargin = 10.0;
 
 void CheckTriangles(const DisparityMap& map)
@@ -43,7 +43,7 @@ void CheckTriangles(const DisparityMap& map)
   }
 }
 
-// What spans the hull: not what was put behind an occluding edge.
+// The points that span the hull: not those that the background continuation placed.
 std::vector<Vector3d> FiniteFeatures(const DisparityMap& map)
 {
   std::vector<Vector3d> features;
@@ -134,7 +134,7 @@ void FreespaceUnion::CheckCount() const
     throw Error("There are " + std::to_string(count) + " views, at most " +
       std::to_string(MostViews) + " can be united.");
   }
-  // Nothing but the hull could ever be free. Without any views all is free anyway.
+  // No point inside the hull could be free. Without any views everything is free anyway.
   if (count > 0 && static_cast<std::size_t>(minimum) > count)
   {
     throw Error("The minimum number of views is " + std::to_string(minimum) +
@@ -198,7 +198,7 @@ FieldScope FreespaceUnion::Root() const
   return scope;
 }
 
-// Deep, because a part that a view has decided costs nothing more to ask.
+// Deep, because a node that is decided costs nothing more to query.
 const ViewOctree& FreespaceUnion::FreeIndex(const Progress& progress) const
 {
   static constexpr int deepestLevel = 7;
@@ -232,7 +232,7 @@ void FreespaceUnion::IndexForPoints(const Progress& progress) const
   }
 }
 
-// Shallow: the cones that views look into are wide.
+// Shallow: the viewing cones are wide.
 const ViewOctree& FreespaceUnion::ClaimIndex() const
 {
   static constexpr int deepestLevel = 4;
@@ -340,7 +340,7 @@ BoxContent FreespaceUnion::Classify(
   return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
 }
 
-// Whether anything that a scope leaves open can still make a point free.
+// Whether the undecided views and planes of a scope can still make a point free.
 bool FreespaceUnion::CanOpen(const FieldScope& scope) const
 {
   return !scope.planes.empty() ||
@@ -364,141 +364,6 @@ BoxContent FreespaceUnion::ClassifyFinely(const Eigen::AlignedBox3d& box, FieldS
   }
   scope.views = std::move(open);
   return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
-}
-
-bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
-  double& place, SurfaceLabel& label) const
-{
-  place = 2.0;
-  for (int plane : scope.planes)
-  {
-    const double inside = this->Hull().Distance(plane, matter);
-    const double outside = this->Hull().Distance(plane, free);
-    if (outside > 0 && inside / (inside - outside) < place)
-    {
-      place = inside / (inside - outside);
-      label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
-    }
-  }
-  const int opener = this->FirstAgreement(matter, free, scope, place);
-  if (opener >= 0)
-  {
-    label = this->LabelOfView(opener, matter + place * (free - matter), free - matter);
-  }
-  return place >= 0 && place <= 1;
-}
-
-// Where, before a place on a segment, enough views agree for the first time that it is free; and the
-// view that is the last to agree. -1: nowhere.
-int FreespaceUnion::FirstAgreement(
-  const Vector3d& matter, const Vector3d& free, const FieldScope& scope, double& place) const
-{
-  // A view begins (1) or ends (-1) to be free. Where one ends and another begins they do not agree.
-  struct Change
-  {
-    double place;
-    int step, view;
-    bool operator<(const Change& other) const
-    {
-      return std::tie(place, step, view) < std::tie(other.place, other.step, other.view);
-    }
-  };
-  thread_local ViewFreespace::Intervals intervals;
-  thread_local std::vector<Change> changes;
-  changes.clear();
-  int opener = -1;
-  for (int view : scope.views)
-  {
-    this->Views[view]->FreeIntervals(matter, free, intervals);
-    if (this->Options.minimumViews == 1)
-    {
-      if (!intervals.empty() && intervals.front().first < place)
-      {
-        place = intervals.front().first;
-        opener = view;
-      }
-      continue;
-    }
-    for (const auto& [begin, end] : intervals)
-    {
-      if (begin >= place)
-      {
-        break;
-      }
-      changes.push_back({ begin, 1, view });
-      changes.push_back({ end, -1, view });
-    }
-  }
-  std::sort(changes.begin(), changes.end());
-  int agreeing = scope.freeViews;
-  for (const Change& change : changes)
-  {
-    agreeing += change.step;
-    if (change.step > 0 && agreeing >= this->Options.minimumViews && change.place < place)
-    {
-      place = change.place;
-      return change.view;
-    }
-  }
-  return opener;
-}
-
-// What the surface is where a view begins to be free, on the way from matter.
-SurfaceLabel FreespaceUnion::LabelOfView(
-  int view, const Vector3d& crossing, const Vector3d& towardsFree) const
-{
-  const ViewFreespace& opener = *this->Views[view];
-  const double step = 1e-6;
-  const ViewFreespace::Sample sample = opener.At(crossing);
-  // On the map the value is nothing but rounding; over a wall it is the height above the map.
-  if (sample.triangle >= 0 &&
-    std::abs(sample.value) <= step * sample.gradient.norm() * towardsFree.norm())
-  {
-    const bool isJump = opener.IsEdgeOn(crossing, sample.gradient);
-    return { view, isJump ? SurfaceKind::Wall : SurfaceKind::Feature,
-      sample.gradient.normalized() };
-  }
-  const Vector3d normal =
-    opener.WallNormal(crossing + step * towardsFree, crossing - step * towardsFree);
-  return { view, SurfaceKind::Wall, normal };
-}
-
-SurfaceLabel FreespaceUnion::Label(
-  const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
-{
-  SurfaceLabel label;
-  double greatest = 0.0;
-  for (int plane : scope.planes)
-  {
-    const double outside = this->Hull().Distance(plane, free);
-    if (outside > greatest)
-    {
-      greatest = outside;
-      label.normal = this->Hull().Normal(plane);
-    }
-  }
-  // The view that opened the way: free on one side, not on the other, by as much as possible.
-  for (int view : scope.views)
-  {
-    const ViewFreespace::Sample front = this->Views[view]->At(free);
-    if (front.triangle < 0 || !(front.value > greatest))
-    {
-      continue;
-    }
-    const ViewFreespace::Sample behind = this->Views[view]->At(matter);
-    if (behind.triangle >= 0 && behind.value > 0)
-    {
-      continue;
-    }
-    greatest = front.value;
-    label.view = view;
-    const bool isBorder = behind.triangle < 0;
-    const bool isJump = this->Views[view]->IsEdgeOn(free, front.gradient);
-    label.kind = isBorder || isJump ? SurfaceKind::Wall : SurfaceKind::Feature;
-    label.normal =
-      isBorder ? this->Views[view]->WallNormal(free, matter) : front.gradient.normalized();
-  }
-  return label;
 }
 
 }

@@ -16,13 +16,13 @@
 namespace freespace
 {
 
-/// How the free spaces of the views are joined.
+/// How the free spaces of the views are united.
 struct FreespaceUnionOptions
 {
-  int minimumViews = 1; ///< so many views must agree that a point is free; >= 1, at most as many as
-                        ///< there are; 1 is the paper
-  double hullMargin = 0.01; ///< by which the hull is pushed out, as a fraction of the diagonal of
-                            ///< the features' bounding box; >= 0, < 10; 0 is the paper
+  int minimumViews = 1; ///< number of views in whose free space a point must lie to be free; >= 1,
+                        ///< at most the number of views; the paper's is 1
+  double hullMargin = 0.01; ///< offset of the hull's planes to the outside, as a fraction of the
+                            ///< diagonal of the features' box; >= 0, < 10; the paper's is 0
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -34,48 +34,48 @@ struct FreespaceUnionOptions
 /// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
 /// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
 /// point, the depth of the map less the depth of the point (with minimumViews = k the k-th
-/// greatest). It is continuous but for steps at the silhouette walls, where a view's claim ends.
+/// greatest). It is continuous except at the silhouette walls, where a view's claim ends.
 class FreespaceUnion : public ContourField
 {
 public:
-  /// Throws Error when an option is out of range, minimumViews among them, or a triangle names a point
-  /// that is not there; Aborted when the progress wants to stop.
+  /// Throws Error when an option is out of range, minimumViews included, or the index of a
+  /// triangle's point is; Aborted when the progress asks to stop.
   FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
 
-  /// Of so many maps, each asked for once, used and dropped: they need not all be in memory. The function
-  /// is called from several threads, for no two of them at once.
+  /// The same for maps that need not all be in memory: each is requested once, used and released.
+  /// The function is called from several threads, one call at a time.
   using MapSource = std::function<DisparityMap(std::size_t)>;
   FreespaceUnion(std::size_t count, const MapSource& mapOf, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
 
-  /// Makes now the index that views are found by, which otherwise the first call of IsFree makes, if
-  /// there are many views, or that of ScopeAround. Throws Aborted when the progress wants to stop.
+  /// Builds the octree of the views, which otherwise the first call of IsFree (if there are many
+  /// views) or of ScopeAround builds. Throws Aborted when the progress asks to stop.
   void IndexForPoints(const Progress& progress) const;
   void IndexForBoxes(const Progress& progress) const;
 
-  /// Infinite where there are no features at all: everything is free.
+  /// Infinite if there are no features at all: everything is free.
   double Value(const Eigen::Vector3d& point) const;
 
-  /// Of Value.
+  /// The gradient of Value.
   Eigen::Vector3d Gradient(const Eigen::Vector3d& point) const;
 
-  /// The sign of Value, faster. Zero and all that is not a number are matter and free respectively.
+  /// The sign of Value, faster. Zero is matter; points that are not finite are free.
   bool IsFree(const Eigen::Vector3d& point) const;
 
-  /// Whether the views alone say that the point is free, whatever the hull.
+  /// Whether the point is in the free space of minimumViews views, regardless of the hull.
   bool IsSeenFree(const Eigen::Vector3d& point) const;
 
   bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
   FieldScope Root() const override;
 
-  /// What is left open around a box: fewer views than at the root.
+  /// The scope of a box: the views that are undecided in it, fewer than at the root.
   FieldScope ScopeAround(const Eigen::AlignedBox3d& box) const;
 
   BoxContent Classify(
     const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const override;
 
-  /// Decides views of a scope by their triangles, for a small box that Classify left Mixed.
+  /// Decides the views of a scope by their triangles, for a small box that Classify left Mixed.
   BoxContent ClassifyFinely(const Eigen::AlignedBox3d& box, FieldScope& scope) const;
 
   bool Crossing(const Eigen::Vector3d& matter, const Eigen::Vector3d& free, const FieldScope& scope,
@@ -109,7 +109,7 @@ private:
   FreespaceUnionOptions Options;
   std::vector<std::unique_ptr<ViewFreespace>> Views;
   std::unique_ptr<FeatureHull> FeaturesHull;
-  mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< when they are first needed
+  mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;
 };
 

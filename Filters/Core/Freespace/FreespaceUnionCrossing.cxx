@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the surface of the union crosses a segment, and what it is there: Crossing and Label.
+#include "Freespace/FreespaceUnion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace freespace
+{
+
+using Eigen::Vector3d;
+
+bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
+  double& place, SurfaceLabel& label) const
+{
+  place = 2.0;
+  for (int plane : scope.planes)
+  {
+    const double inside = this->Hull().Distance(plane, matter);
+    const double outside = this->Hull().Distance(plane, free);
+    if (outside > 0 && inside / (inside - outside) < place)
+    {
+      place = inside / (inside - outside);
+      label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
+    }
+  }
+  const int opener = this->FirstAgreement(matter, free, scope, place);
+  if (opener >= 0)
+  {
+    label = this->LabelOfView(opener, matter + place * (free - matter), free - matter);
+  }
+  return place >= 0 && place <= 1;
+}
+
+// The first place on a segment, before the given one, where at least minimumViews views are free.
+// Returns the view whose interval begins there and updates the place; -1: there is none.
+int FreespaceUnion::FirstAgreement(
+  const Vector3d& matter, const Vector3d& free, const FieldScope& scope, double& place) const
+{
+  // An interval of a view begins (step 1) or ends (step -1). Ends are sorted first: intervals that
+  // only touch do not overlap.
+  struct Change
+  {
+    double place;
+    int step, view;
+    bool operator<(const Change& other) const
+    {
+      return std::tie(place, step, view) < std::tie(other.place, other.step, other.view);
+    }
+  };
+  thread_local ViewFreespace::Intervals intervals;
+  thread_local std::vector<Change> changes;
+  changes.clear();
+  int opener = -1;
+  for (int view : scope.views)
+  {
+    this->Views[view]->FreeIntervals(matter, free, intervals);
+    if (this->Options.minimumViews == 1)
+    {
+      if (!intervals.empty() && intervals.front().first < place)
+      {
+        place = intervals.front().first;
+        opener = view;
+      }
+      continue;
+    }
+    for (const auto& [begin, end] : intervals)
+    {
+      if (begin >= place)
+      {
+        break;
+      }
+      changes.push_back({ begin, 1, view });
+      changes.push_back({ end, -1, view });
+    }
+  }
+  std::sort(changes.begin(), changes.end());
+  int agreeing = scope.freeViews;
+  for (const Change& change : changes)
+  {
+    agreeing += change.step;
+    if (change.step > 0 && agreeing >= this->Options.minimumViews && change.place < place)
+    {
+      place = change.place;
+      return change.view;
+    }
+  }
+  return opener;
+}
+
+// The label of the surface where a view's free interval begins, seen from matter.
+SurfaceLabel FreespaceUnion::LabelOfView(
+  int view, const Vector3d& crossing, const Vector3d& towardsFree) const
+{
+  const ViewFreespace& opener = *this->Views[view];
+  const double step = 1e-6;
+  const ViewFreespace::Sample sample = opener.At(crossing);
+  // On the map the value is zero up to rounding; on a silhouette wall it is the height above the
+  // map.
+  if (sample.triangle >= 0 &&
+    std::abs(sample.value) <= step * sample.gradient.norm() * towardsFree.norm())
+  {
+    const bool isJump = opener.IsEdgeOn(crossing, sample.gradient);
+    return { view, isJump ? SurfaceKind::Wall : SurfaceKind::Feature,
+      sample.gradient.normalized() };
+  }
+  const Vector3d normal =
+    opener.WallNormal(crossing + step * towardsFree, crossing - step * towardsFree);
+  return { view, SurfaceKind::Wall, normal };
+}
+
+SurfaceLabel FreespaceUnion::Label(
+  const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
+{
+  SurfaceLabel label;
+  double greatest = 0.0;
+  for (int plane : scope.planes)
+  {
+    const double outside = this->Hull().Distance(plane, free);
+    if (outside > greatest)
+    {
+      greatest = outside;
+      label.normal = this->Hull().Normal(plane);
+    }
+  }
+  // The view that is free on one side and not on the other, with the greatest value.
+  for (int view : scope.views)
+  {
+    const ViewFreespace::Sample front = this->Views[view]->At(free);
+    if (front.triangle < 0 || !(front.value > greatest))
+    {
+      continue;
+    }
+    const ViewFreespace::Sample behind = this->Views[view]->At(matter);
+    if (behind.triangle >= 0 && behind.value > 0)
+    {
+      continue;
+    }
+    greatest = front.value;
+    label.view = view;
+    const bool isBorder = behind.triangle < 0;
+    const bool isJump = this->Views[view]->IsEdgeOn(free, front.gradient);
+    label.kind = isBorder || isJump ? SurfaceKind::Wall : SurfaceKind::Feature;
+    label.normal =
+      isBorder ? this->Views[view]->WallNormal(free, matter) : front.gradient.normalized();
+  }
+  return label;
+}
+
+}
