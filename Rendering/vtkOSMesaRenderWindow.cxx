@@ -11,6 +11,9 @@
 #ifndef GLAPI
 #define GLAPI extern
 #endif
+#ifndef APIENTRY
+#define APIENTRY GLAPIENTRY
+#endif
 #include <GL/osmesa.h>
 
 #include <algorithm>
@@ -18,8 +21,37 @@
 
 vtkStandardNewMacro(vtkOSMesaRenderWindow);
 
+namespace
+{
+
+// What was current in a thread.
+struct CurrentContext
+{
+  OSMesaContext context = nullptr;
+  void* pixels = nullptr;
+  GLint width = 0;
+  GLint height = 0;
+};
+
+CurrentContext GetCurrentContext()
+{
+  CurrentContext current;
+  current.context = OSMesaGetCurrentContext();
+  GLint format = 0;
+  if (current.context &&
+    !OSMesaGetColorBuffer(
+      current.context, &current.width, &current.height, &format, &current.pixels))
+  {
+    current.context = nullptr;
+  }
+  return current;
+}
+
+}
+
 struct vtkOSMesaRenderWindow::InternalState
 {
+  std::vector<CurrentContext> pushed; // what PopContext makes current again
   OSMesaContext context = nullptr;
   std::vector<unsigned char> pixels; // the default framebuffer
   int width = 0;                     // of pixels
@@ -133,6 +165,35 @@ void vtkOSMesaRenderWindow::ReleaseCurrent()
     OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
     freespace::StopDispatch();
   }
+}
+
+void vtkOSMesaRenderWindow::PushContext()
+{
+  this->Internals->pushed.push_back(GetCurrentContext());
+  this->MakeCurrent();
+}
+
+void vtkOSMesaRenderWindow::PopContext()
+{
+  InternalState& state = *this->Internals;
+  if (state.pushed.empty())
+  {
+    return;
+  }
+  const CurrentContext previous = state.pushed.back();
+  state.pushed.pop_back();
+  if (previous.context == state.context && this->IsCurrent())
+  {
+    return;
+  }
+  if (!previous.context)
+  {
+    this->ReleaseCurrent();
+    return;
+  }
+  OSMesaMakeCurrent(
+    previous.context, previous.pixels, GL_UNSIGNED_BYTE, previous.width, previous.height);
+  freespace::DispatchToOSMesa();
 }
 
 int vtkOSMesaRenderWindow::SupportsOpenGL()

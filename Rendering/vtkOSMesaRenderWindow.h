@@ -51,6 +51,15 @@ public:
 
   ///@{
   /**
+   * Makes the context current, and takes back what was current before. An actor that two windows share
+   * releases its resources in the other one's context in between. Calls nest.
+   */
+  void PushContext() override;
+  void PopContext() override;
+  ///@}
+
+  ///@{
+  /**
    * Whether a context can be made (it is made), and that it is not a direct one.
    */
   int SupportsOpenGL() override;

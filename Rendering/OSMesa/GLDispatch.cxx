@@ -6,6 +6,9 @@
 #ifndef GLAPI
 #define GLAPI extern
 #endif
+#ifndef APIENTRY
+#define APIENTRY GLAPIENTRY
+#endif
 #include <GL/osmesa.h>
 
 // libGLdispatch exports these for libGLX and libEGL; no package has the header.

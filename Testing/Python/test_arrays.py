@@ -34,6 +34,29 @@ class TestArrays(unittest.TestCase):
         with self.assertRaises(ValueError):
             freespace.make_view(**view)
 
+    def test_other_shapes_are_refused(self):
+        view = random_view(np.random.default_rng(1), 5)
+        turned = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.]])
+        wrong = {'points': view['points'].T, 'image_points': view['image_points'].T, 'K': view['K'].T,
+                 'cam_from_world': view['cam_from_world'].T}
+        for name, value in wrong.items():
+            with self.assertRaises(ValueError, msg=name):
+                freespace.make_view(**{**view, name: value})
+        for K in (-view['K'], np.full((3, 3), np.nan), np.zeros((3, 3))):
+            with self.assertRaises(ValueError):
+                freespace.make_view(**{**view, 'K': K})
+        for R in (2 * turned, turned * [1, 1, -1], np.full((3, 3), np.nan)):
+            with self.assertRaises(ValueError):
+                freespace.make_view(**{**view, 'cam_from_world': np.hstack([R, np.zeros((3, 1))])})
+        freespace.make_view(**{**view, 'cam_from_world': np.hstack([turned, np.zeros((3, 1))])})
+
+    def test_surface_of_other_cells_is_refused(self):
+        from vtkmodules.vtkFiltersSources import vtkCubeSource
+        cube = vtkCubeSource()
+        cube.Update()
+        with self.assertRaises(ValueError):
+            freespace.surface_arrays(cube.GetOutput())
+
     def test_support_filter_takes_views_from_numpy(self):
         view = random_view(np.random.default_rng(1), 0)
         pixels = np.array([[100., 100], [101, 100], [102, 100], [103, 100], [300, 300]])

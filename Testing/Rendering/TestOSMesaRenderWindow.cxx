@@ -110,6 +110,38 @@ TEST(OSMesaRenderWindow, WindowsOfDifferentSizesTakeTurns)
   }
 }
 
+TEST(OSMesaRenderWindow, WindowsShareAnActor)
+{
+  SphereWindow first(200, 160, 255);
+  SphereWindow second(64, 128, 51);
+  second.renderer->RemoveAllViewProps();
+  first.renderer->GetActors()->InitTraversal();
+  second.renderer->AddActor(first.renderer->GetActors()->GetNextActor());
+  for (int turn = 0; turn < 2; ++turn)
+  {
+    first.Check();
+    second.Check();
+  }
+}
+
+TEST(OSMesaRenderWindow, PopContextTakesBackWhatWasCurrent)
+{
+  vtkNew<vtkOSMesaRenderWindow> first, second;
+  first->MakeCurrent();
+  second->PushContext();
+  EXPECT_TRUE(second->IsCurrent());
+  first->PushContext();
+  EXPECT_TRUE(first->IsCurrent());
+  first->PopContext();
+  EXPECT_TRUE(second->IsCurrent());
+  second->PopContext();
+  EXPECT_TRUE(first->IsCurrent());
+  first->ReleaseCurrent();
+  second->PushContext();
+  second->PopContext();
+  EXPECT_FALSE(second->IsCurrent());
+}
+
 TEST(OSMesaRenderWindow, Resizes)
 {
   SphereWindow picture(100, 80, 255);

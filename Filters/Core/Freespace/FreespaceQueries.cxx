@@ -101,6 +101,10 @@ private:
 
 double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vector3d& last)
 {
+  if (!first.allFinite() || !last.allFinite())
+  {
+    return 0.0;
+  }
   const auto [enters, leaves] = WithinHull(phi.Hull(), first, last);
   if (phi.Hull().IsEmpty() || !(enters <= leaves))
   {
@@ -153,11 +157,19 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
 
 bool IsBoxFree(const FreespaceUnion& phi, const AlignedBox3d& box)
 {
+  if (!box.min().allFinite() || !box.max().allFinite() || box.isEmpty())
+  {
+    return false;
+  }
   return FreeBoxTest(phi, box.center(), HUGE_VAL).IsFree(box, phi.ScopeAround(box), 0);
 }
 
 bool IsSphereFree(const FreespaceUnion& phi, const Vector3d& center, double radius)
 {
+  if (!center.allFinite() || !std::isfinite(radius) || radius < 0)
+  {
+    return false;
+  }
   const Vector3d reach = Vector3d::Constant(radius);
   const AlignedBox3d box(center - reach, center + reach);
   return FreeBoxTest(phi, center, radius).IsFree(box, phi.ScopeAround(box), 0);

@@ -8,7 +8,8 @@ namespace freespace
 {
 
 /// What the paper's last page proposes Phi for: "applications like obstacle avoidance and ray
-/// tracing". All are safe to ask from several threads.
+/// tracing". All are safe to ask from several threads. They fail closed: a number that is not finite, a
+/// negative radius or an empty box is not free.
 
 /// The first place where a segment is not in free space, as a fraction of it: 0 when it begins in
 /// matter, infinite when all of it is free. Exact. Matter is closed: a segment that only touches it is

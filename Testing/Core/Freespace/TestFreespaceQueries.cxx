@@ -88,6 +88,31 @@ TEST(FreespaceQueries, BoxesAndSpheresAreFreeOnlyWhereAllTheirPointsAre)
   EXPECT_LT(refused, free / 5);
 }
 
+TEST(FreespaceQueries, WhatIsNotFiniteIsNotFree)
+{
+  const FreespaceUnion phi(RandomMaps(3, 2), {});
+  const FreespaceUnion empty({}, {});
+  const Vector3d far = Vector3d::Constant(100);
+  ASSERT_TRUE(IsSphereFree(phi, far, 1));
+  for (const double number : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  {
+    for (const FreespaceUnion* field : { &phi, &empty })
+    {
+      EXPECT_FALSE(IsSphereFree(*field, far, number));
+      EXPECT_EQ(FirstBlocked(*field, far, Vector3d(number, 0, 0)), 0.0);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Vector3d point = far;
+        point[axis] = number;
+        EXPECT_FALSE(IsSphereFree(*field, point, 1));
+        EXPECT_FALSE(IsBoxFree(*field, AlignedBox3d(point, far)));
+        EXPECT_FALSE(IsBoxFree(*field, AlignedBox3d(far, point)));
+      }
+    }
+  }
+  EXPECT_FALSE(IsSphereFree(phi, far, -1));
+}
+
 TEST(FreespaceQueries, AwkwardInput)
 {
   const FreespaceUnion empty({}, {});

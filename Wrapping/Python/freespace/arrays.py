@@ -31,9 +31,16 @@ def views(blocks):
 
 
 def make_view(points, image_points, K, cam_from_world, size, image_file=''):
-    """A view's block from arrays of the shapes that view_arrays returns."""
-    points = np.ascontiguousarray(points, np.float64).reshape(-1, 3)
-    image_points = np.ascontiguousarray(image_points, np.float64).reshape(-1, 2)
+    """A view's block from arrays of the shapes that view_arrays returns.
+
+    Raises ValueError for other shapes, a K that is not upper triangular with positive focal lengths, and a
+    cam_from_world that is no rotation with a translation.
+    """
+    points = rows(points, 3, 'points')
+    image_points = rows(image_points, 2, 'image_points')
+    K = np.asarray(K, np.float64)
+    cam_from_world = np.asarray(cam_from_world, np.float64)
+    _check_camera(K, cam_from_world)
     if len(points) != len(image_points):
         raise ValueError(f'{len(points)} points but {len(image_points)} image points')
     block = vtkPolyData()
@@ -54,6 +61,30 @@ def make_view(points, image_points, K, cam_from_world, size, image_file=''):
     return block
 
 
+def rows(array, columns, name):
+    """The array as contiguous doubles of shape (n, columns); an empty one may have any shape."""
+    array = np.ascontiguousarray(array, np.float64)
+    if array.size == 0:
+        return array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f'{name} has the shape {array.shape}, expected (n, {columns})')
+    return array
+
+
+def _check_camera(K, cam_from_world):
+    if K.shape != (3, 3):
+        raise ValueError(f'K has the shape {K.shape}, expected (3, 3)')
+    if not np.isfinite(K).all() or K[0, 0] <= 0 or K[1, 1] <= 0 or K[2, 2] <= 0 \
+            or K[1, 0] != 0 or K[2, 0] != 0 or K[2, 1] != 0:
+        raise ValueError('K is not upper triangular with a positive diagonal; is it transposed?')
+    if cam_from_world.shape != (3, 4):
+        raise ValueError(f'cam_from_world has the shape {cam_from_world.shape}, expected (3, 4)')
+    rotation = cam_from_world[:, :3]
+    if not np.isfinite(cam_from_world).all() or np.linalg.det(rotation) <= 0 \
+            or not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-4):
+        raise ValueError('cam_from_world does not begin with a rotation')
+
+
 def make_views(blocks):
     """A multi-block data set from a dict of name to block."""
     data = vtkMultiBlockDataSet()
@@ -64,7 +95,10 @@ def make_views(blocks):
 
 
 def surface_arrays(surface):
-    """Vertices (n, 3) and triangles (m, 3) of a surface."""
+    """Vertices (n, 3) and triangles (m, 3) of a surface.
+
+    Raises ValueError where the surface has other cells than triangles.
+    """
     if surface.GetNumberOfPoints() == 0:
         return np.zeros((0, 3)), np.zeros((0, 3), int)
     return vtk_to_numpy(surface.GetPoints().GetData()), _triangles(surface)
@@ -74,6 +108,8 @@ def _triangles(poly_data):
     cells = poly_data.GetPolys()
     if cells.GetNumberOfCells() == 0:
         return np.zeros((0, 3), int)
+    if poly_data.GetNumberOfStrips() or not (np.diff(vtk_to_numpy(cells.GetOffsetsArray())) == 3).all():
+        raise ValueError('the surface has other cells than triangles; vtkTriangleFilter makes them triangles')
     return vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
 
 
