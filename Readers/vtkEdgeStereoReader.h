@@ -19,17 +19,17 @@
  * the features in world coordinates; each is a vertex cell, each chain of features along an edge is
  * a polyline.
  *
- * | where     | name             | type             | meaning |
+ * | where     | name             | type             | meaning                                        |
  * |-----------|------------------|------------------|------------------------------------------------|
- * | PointData | ImagePoint       | double x2        | where the reference sees it, pixels | |
- * PointData | RGB              | unsigned char x3 | its colour in the reference image | | PointData
- * | EdgeDirection    | double x3        | of the edge in the world, unit length          | |
- * PointData | MatchingCost     | double           | 0 (perfect) to 1 | | PointData | ChainId | int
- * | number of its polyline                         | | FieldData | CameraIntrinsics | double x9 | K
- * of the reference, row-major                  | | FieldData | CameraFromWorld  | double x12 | [R
- * t], row-major                               | | FieldData | ImageSize        | int x2           |
- * width, height                                  | | FieldData | ImageFile        | string | the
- * reference image, relative to the images    |
+ * | PointData | ImagePoint       | double x2        | where the reference sees it, pixels            |
+ * | PointData | RGB              | unsigned char x3 | its colour in the reference image              |
+ * | PointData | EdgeDirection    | double x3        | of the edge in the world, unit length          |
+ * | PointData | MatchingCost     | double           | 0 (perfect) to 1                               |
+ * | PointData | ChainId          | int              | number of its polyline                         |
+ * | FieldData | CameraIntrinsics | double x9        | K of the reference, row-major                  |
+ * | FieldData | CameraFromWorld  | double x12       | [R t], row-major                               |
+ * | FieldData | ImageSize        | int x2           | width, height                                  |
+ * | FieldData | ImageFile        | string           | the reference image, relative to the images    |
  *
  * With EveryImage on, every image of a cluster is the reference of a view of its own, over the same
  * images: a cross gives five views instead of one. That is beyond the paper, and takes several times
