@@ -2,6 +2,7 @@
 #include "Data/SurfaceViewpoint.h"
 
 #include "Common/Error.h"
+#include "Common/ParseNumber.h"
 #include "Data/ViewBlocks.h"
 
 #include <vtkFieldData.h>
@@ -10,6 +11,8 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <type_traits>
 
 namespace freespace
 {
@@ -63,20 +66,28 @@ std::string ViewpointComment(vtkPolyData* surface)
 std::optional<Camera> ViewpointFromComment(const std::string& comment)
 {
   std::istringstream words(comment);
-  std::string first;
+  std::string word;
+  bool valid = words >> word && word == keyword;
+  const auto read = [&](auto& value)
+  {
+    const auto number = words >> word
+      ? ParseNumber<std::remove_reference_t<decltype(value)>>(word)
+      : std::nullopt;
+    valid = valid && number;
+    value = number.value_or(0);
+  };
   Camera camera;
-  words >> first;
   for (int i = 0; i < 9; ++i)
   {
-    words >> camera.K(i / 3, i % 3);
+    read(camera.K(i / 3, i % 3));
   }
   for (int i = 0; i < 12; ++i)
   {
-    words >> (i % 4 < 3 ? camera.R(i / 4, i % 4) : camera.t(i / 4));
+    read(i % 4 < 3 ? camera.R(i / 4, i % 4) : camera.t(i / 4));
   }
-  words >> camera.width >> camera.height;
-  return words && first == keyword && IsCamera(camera) ? std::optional<Camera>(camera)
-                                                       : std::nullopt;
+  read(camera.width);
+  read(camera.height);
+  return valid && IsCamera(camera) ? std::optional<Camera>(camera) : std::nullopt;
 }
 
 }

@@ -2,7 +2,9 @@
 #ifndef freespace_TextSource_h
 #define freespace_TextSource_h
 
-#include <charconv>
+#include "Common/ParseNumber.h"
+
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +14,8 @@ namespace freespace
 /// The content of a file. Throws Error naming it when it cannot be read.
 std::string ReadWholeFile(const std::string& file);
 
-/// The lines of a text file and the fields, separated by blanks, of the current one. Whatever is
-/// not as asked for throws an Error that names the file, the line and the fault.
+/// Reads a text file by lines and the fields of a line, which are separated by blanks. Throws Error
+/// naming the file, the line and the fault when the text is not as requested.
 class TextSource
 {
 public:
@@ -46,15 +48,12 @@ public:
   Value Number(const char* what)
   {
     const std::string_view field = this->Field(what);
-    const char* begin = field.data() + (field.front() == '+' ? 1 : 0);
-    const char* end = field.data() + field.size();
-    Value value{};
-    const auto [stop, code] = std::from_chars(begin, end, value);
-    if (code != std::errc() || stop != end)
+    const std::optional<Value> value = ParseNumber<Value>(field);
+    if (!value)
     {
       this->Fail("'" + std::string(field.substr(0, 40)) + "' is not " + what);
     }
-    return value;
+    return *value;
   }
 
 private:

@@ -2,6 +2,7 @@
 #include "Text/WholeFile.h"
 
 #include "Common/Error.h"
+#include "Common/ParseNumber.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -47,13 +48,13 @@ std::string Tail(std::ifstream& file, std::streamoff length)
   return tail;
 }
 
-// What a PLY header announces.
+// The content of a PLY header.
 struct PLYHeader
 {
   bool whole = false;
   bool text = false;
   double elements = 0;   // all counts together
-  double leastBytes = 0; // that the elements take in a binary file, lists being at least triangles
+  double leastBytes = 0; // size of the elements in a binary file if lists are triangles
 };
 
 double ScalarSize(const std::string& type)
@@ -91,7 +92,7 @@ PLYHeader ReadPLYHeader(std::ifstream& file)
     }
     else if (keyword == "element")
     {
-      count = std::atof(second.c_str());
+      count = ParseNumber<double>(second).value_or(0);
       header.elements += count;
     }
     else if (keyword == "property")
@@ -104,7 +105,7 @@ PLYHeader ReadPLYHeader(std::ifstream& file)
   return header;
 }
 
-// Where the marker after the coded data that begins there is; what looks like one but is data is marked.
+// The position of the first marker after the coded data at `at`, in which stuffed bytes are no markers.
 std::size_t NextMarker(const std::string& bytes, std::size_t at)
 {
   const auto isData = [](unsigned char code)
@@ -116,7 +117,7 @@ std::size_t NextMarker(const std::string& bytes, std::size_t at)
   return at;
 }
 
-// Goes through the segments of a JPEG, whose lengths are two bytes, to the marker of the end.
+// Walks over the segments of a JPEG, whose lengths have two bytes, to the end marker.
 bool HasEndOfJPEG(const std::string& bytes)
 {
   constexpr unsigned char endOfImage = 0xD9, startOfScan = 0xDA, fill = 0xFF;

@@ -7,20 +7,20 @@
 namespace freespace
 {
 
-/// Whether a file is whole by its format's own account. VTK's readers trust what a header announces:
-/// of a file that was cut off they read part without a word, or crash.
-/// Each throws Error naming the file when it is missing, cut off or not of its format.
+/// Checks that a file is complete, i.e. not truncated. VTK's readers trust the header: of a truncated
+/// file they silently read a part, or crash.
+/// Each throws Error naming the file when it is missing, truncated or of another format.
 
 /// VTK's XML formats end with a closing tag.
 void CheckWholeVTKFile(const std::string& fileName);
 
-/// A PLY header announces its elements: those must be there.
+/// A PLY header gives the number of elements.
 void CheckWholePLY(const std::string& fileName);
 
-/// A binary STL announces its triangles, a text one ends with "endsolid".
+/// A binary STL header gives the number of triangles, a text file ends with "endsolid".
 void CheckWholeSTL(const std::string& fileName);
 
-/// A JPEG ends with a marker; decoders make up what is missing before it. Other pictures pass.
+/// A JPEG file ends with a marker; decoders invent the pixels that are missing. Other formats pass.
 void CheckWholeJPEG(const std::string& fileName);
 
 }

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
+#include "Common/ParseNumber.h"
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
@@ -15,12 +16,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 namespace freespace
@@ -42,9 +44,10 @@ struct Settings
 // "1e3,0,0" or "1;2;3e5".
 bool IsHeading(const std::string& line)
 {
-  char* end = nullptr;
-  std::strtod(line.c_str(), &end);
-  return end == line.c_str() &&
+  const std::size_t begin = std::min(line.find_first_not_of(" \t+"), line.size());
+  const char* end = line.data() + line.size();
+  double number = 0;
+  return std::from_chars(line.data() + begin, end, number).ec == std::errc::invalid_argument &&
     std::any_of(line.begin(), line.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
 }
 
@@ -56,12 +59,12 @@ std::vector<double> ReadRow(std::string line)
   std::vector<double> values;
   for (std::string word; words >> word;)
   {
-    char* end = nullptr;
-    values.push_back(std::strtod(word.c_str(), &end));
-    if (*end != '\0' || !std::isfinite(values.back()))
+    const std::optional<double> value = ParseNumber<double>(word);
+    if (!value || !std::isfinite(*value))
     {
       return {};
     }
+    values.push_back(*value);
   }
   return values;
 }

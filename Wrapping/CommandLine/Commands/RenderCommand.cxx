@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
+#include "Common/ParseNumber.h"
 #include "Data/ObservedTriangles.h"
 #include "Data/ViewBlocks.h"
 #include "Output/Picture.h"
@@ -16,8 +17,9 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 #include <memory>
+#include <string_view>
 
 namespace freespace
 {
@@ -42,10 +44,11 @@ struct Settings
 // "1920x1080" -> width and height.
 std::array<int, 2> SizeFrom(const std::string& text)
 {
-  std::array<int, 2> size{};
-  char more = 0;
-  const bool isTwo = std::sscanf(text.c_str(), "%5dx%5d%c", &size[0], &size[1], &more) == 2;
-  if (!isTwo || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > 8192)
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const std::string_view all(text);
+  const std::array<int, 2> size = { ParseNumber<int>(all.substr(0, cross)).value_or(0),
+    ParseNumber<int>(all.substr(std::min(cross + 1, all.size()))).value_or(0) };
+  if (std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > 8192)
   {
     throw Error(
       "'" + text + "' is no size of a picture: it is WIDTHxHEIGHT, 1 to 8192 pixels each.");

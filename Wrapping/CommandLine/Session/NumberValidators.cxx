@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/NumberValidators.h"
 
+#include "Common/ParseNumber.h"
+
 #include <cmath>
+#include <optional>
+#include <string>
 
 namespace freespace
 {
@@ -9,9 +13,10 @@ namespace freespace
 namespace
 {
 
-bool IsFinite(const std::string& text, double& value)
+std::optional<double> FiniteNumber(const std::string& text)
 {
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+  const std::optional<double> value = ParseNumber<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 }
@@ -21,8 +26,8 @@ CLI::Validator NonNegative()
   return CLI::Validator(
     [](const std::string& text)
     {
-      double value = 0;
-      return IsFinite(text, value) && value >= 0 ? std::string()
+      const double value = FiniteNumber(text).value_or(-1);
+      return value >= 0 ? std::string()
                                                  : "'" + text + "' is not a number of 0 or more";
     },
     "NUMBER >= 0");
@@ -33,8 +38,8 @@ CLI::Validator Positive()
   return CLI::Validator(
     [](const std::string& text)
     {
-      double value = 0;
-      return IsFinite(text, value) && value > 0 ? std::string()
+      const double value = FiniteNumber(text).value_or(-1);
+      return value > 0 ? std::string()
                                                 : "'" + text + "' is not a number above 0";
     },
     "NUMBER > 0");

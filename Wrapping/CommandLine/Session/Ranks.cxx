@@ -2,6 +2,7 @@
 #include "Session/Ranks.h"
 
 #include "Common/Error.h"
+#include "Common/ParseNumber.h"
 
 #include <vtkPolyData.h>
 
@@ -26,7 +27,7 @@ int FromEnvironment(std::initializer_list<const char*> names, int otherwise)
   {
     if (const char* text = std::getenv(name))
     {
-      return std::atoi(text);
+      return ParseNumber<int>(text).value_or(otherwise);
     }
   }
   return otherwise;
