@@ -66,6 +66,12 @@ struct EdgeChains
   std::vector<int> begin = { 0 };
 
   std::size_t NumberOfChains() const { return this->begin.size() - 1; }
+
+  /// Distance between two tokens, pixels.
+  double Distance(int from, int to) const
+  {
+    return (this->tokens[to].position - this->tokens[from].position).norm();
+  }
 };
 
 /// Canny's edges with Devernay's sub-pixel correction: the position is the vertex of the parabola

@@ -9,8 +9,8 @@
 namespace freespace
 {
 
-/// What disparity to expect in a part of an image, by the matches that are known around it: the
-/// median of those in the same cell of a coarse grid or in the nearest one that has any.
+/// The disparity to expect in a part of an image: the median of the known matches in the same cell of a
+/// coarse grid, or in the nearest cell that has any.
 class DisparityPrior
 {
 public:

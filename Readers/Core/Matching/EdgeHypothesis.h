@@ -15,12 +15,12 @@ struct EdgeCandidate
   int image;
   int token;
 
-  /// What its disparity counts among others.
+  /// The weight of its disparity in a mean: the inverse variance.
   double Weight() const { return 1 / (static_cast<double>(this->sigma) * this->sigma); }
 };
 
-/// Candidates of different images that agree in their disparity: support [begin, begin + count) of
-/// a list that stands beside the hypotheses. One that is empty means no match.
+/// Candidates of different images that agree in their disparity: the elements [begin, begin + count) of
+/// a separate list of support. An empty hypothesis means no match.
 struct EdgeHypothesis
 {
   double disparity = 0;

@@ -11,9 +11,9 @@
 namespace freespace
 {
 
-/// Tells at once which of many places along a line lie within reach of one that another image has
-/// there: few do, and only these are worth a closer look. Two places meet when either reaches the
-/// other's centre. Places are sorted into bins one unit wide; the answer is never a wrong no.
+/// A fast filter for points on a line: which of them are within reach of a point of another image. Few
+/// are, and only these need an exact test. Two points meet when either reaches the centre of the other.
+/// Points are sorted into bins one unit wide; there are false positives, but no false negatives.
 class ProximityBins
 {
 public:

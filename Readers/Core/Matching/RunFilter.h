@@ -8,10 +8,10 @@
 namespace freespace
 {
 
-/// Takes back the matches of short runs that stand alone: most tokens of a run of less than 20 must have
-/// a match of another, accepted run in the image around them whose disparity a surface could
-/// continue to theirs. A wrong match that is consistent in itself is about as likely at any depth, and
-/// a single one, far behind the scene, makes a wedge of free space through everything before it.
+/// Removes the matches of short runs without support: at least half of the tokens of a run of less than
+/// 20 must have a match of another, accepted run close to them in the image, with a disparity that a
+/// continuous surface allows. A wrong but consistent match is about equally likely at any depth, and a
+/// single one far behind the scene carves a wedge of free space through everything in front of it.
 /// `baseline`: see EpipolarPair, of the longest pair.
 void DropLonelyRuns(const EdgeChains& edges, double baseline, const MatcherOptions& options,
   LargeVector<EdgeMatch>& matches);

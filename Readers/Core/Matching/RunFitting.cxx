@@ -55,8 +55,8 @@ public:
   }
 
 private:
-  // The point nearest to all edge lines: unknown are the disparity and the token's shift across the
-  // edge in the reference image.
+  // The point nearest to all edge lines. The unknowns are the disparity and the token's shift across
+  // the edge in the reference image.
   void Intersect(EdgeHypothesis& hypothesis) const
   {
     double a = 0, b = 0, c = 1; // normal matrix; the reference's own line asks for shift = 0
@@ -76,7 +76,7 @@ private:
     hypothesis.sigma = static_cast<float>(std::sqrt(c / determinant));
   }
 
-  // With the disparity given, the shift across the edge that fits all lines best.
+  // The shift across the edge that fits all lines best for a given disparity.
   double BestShift(const EdgeHypothesis& hypothesis, double disparity) const
   {
     double weights = 1, sum = 0;
@@ -90,12 +90,7 @@ private:
     return sum / weights;
   }
 
-  double Step(int from, int to) const
-  {
-    return (this->Edges.tokens[to].position - this->Edges.tokens[from].position).norm();
-  }
-
-  // The tokens [begin, end) of a chain that have a hypothesis, in pieces without a jump.
+  // Splits the tokens [begin, end) of a chain that have a hypothesis where the disparity jumps.
   void SplitIntoRuns(int begin, int end, std::vector<std::vector<int>>& runs) const
   {
     const std::size_t before = runs.size();
@@ -109,7 +104,7 @@ private:
       if (continues)
       {
         const int last = runs.back().back();
-        const double step = this->Step(last, i);
+        const double step = this->Edges.Distance(last, i);
         continues = step <= LongestGap &&
           DisparityJump(this->Chosen[last], this->Chosen[i], step, this->Baseline, this->Options) <=
             1;
@@ -143,8 +138,8 @@ private:
     run = std::move(kept);
   }
 
-  // The disparity of a run's k-th token by a line through its neighbours: as many of them as make
-  // it known to a good third of a pixel of the longest baseline.
+  // The disparity of the k-th token of a run by a line through its neighbours: as many of them as are
+  // needed for an error of a good third of a pixel of the longest baseline.
   double FitDisparity(int k) const
   {
     constexpr int leastRadius = 2, greatestRadius = 12;
@@ -180,7 +175,7 @@ private:
     return determinant > 0 ? (wd * wss - wsd * ws) / determinant : wd / w;
   }
 
-  // The fitted disparities of a run and how far the edges are from where they predict them.
+  // Computes the fitted disparities of a run and the residuals of its edges.
   void FitRun(const std::vector<int>& run)
   {
     this->Samples.clear();
@@ -205,8 +200,8 @@ private:
     }
   }
 
-  // What these images' edges deserve: several times their median error, but not more than the
-  // tolerance. Sharp pictures from exact cameras show up a wrong match by a fraction of a pixel.
+  // Several times the median residual of these images, but not more than the tolerance. With sharp
+  // images and exact cameras a wrong match is off by only a fraction of a pixel.
   double ResidualLimit(const std::vector<std::vector<int>>& runs) const
   {
     constexpr double factor = 5, least = 0.2; // pixels
@@ -227,14 +222,14 @@ private:
     return std::min(this->Options.tolerance, std::max(least, factor * *middle));
   }
 
-  // An edge near to parallel with the epipolar line magnifies its error: it has to fit better, so
-  // that its disparity is known to the limit, too (in pixels of the longest baseline).
+  // An edge nearly parallel to the epipolar line magnifies the error of its disparity. It has to fit
+  // better, so that its disparity is within the limit as well (in pixels of the longest baseline).
   double LimitOf(const EdgeHypothesis& hypothesis, double limit) const
   {
     return limit * std::min(1.0, 1 / (hypothesis.sigma * this->Baseline));
   }
 
-  // Turns what fits into matches, in pieces without a gap.
+  // Turns the tokens that fit into matches, in pieces without a gap.
   void MatchRun(const std::vector<int>& run, double limit)
   {
     std::vector<int> piece;
@@ -248,7 +243,7 @@ private:
         this->Matches[i] = EdgeMatch();
         continue;
       }
-      if (!piece.empty() && this->Step(piece.back(), i) > LongestGap)
+      if (!piece.empty() && this->Edges.Distance(piece.back(), i) > LongestGap)
       {
         this->FinishPiece(piece);
       }
@@ -306,7 +301,7 @@ private:
   std::vector<double> Residual; // per token, pixels across the edge
   int NumberOfRuns = 0;
 
-  // What a line is fitted to: the tokens of the run at hand.
+  // The tokens of the current run, to which a line is fitted.
   struct Sample
   {
     Eigen::Vector2d position;

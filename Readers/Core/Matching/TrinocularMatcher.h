@@ -11,20 +11,22 @@
 namespace freespace
 {
 
-/// Matches the tokens of a reference image over two or more other images: section 3's "feature
-/// based stereo".
+/// Matches the tokens of a reference image over two or more other images: the feature based stereo of
+/// section 3.
 ///
-/// Each token's epipolar line in another image is cut with that image's linked chains, which gives
-/// candidates with a sub-pixel disparity; edges of another direction or with other colours on both
-/// sides are not among them, nor are those that no other image's edge can confirm. A match goes on
-/// along an edge, so only every few tokens search their whole epipolar lines, and these only where no
-/// good match leads to them; the others follow what these found along the other images' chains. The
-/// better side of an edge decides, so that a silhouette is
-/// recognized by the object, whatever lies behind it. Candidates of two images that agree to within
-/// the tolerance, by the true geometry of both pairs, confirm each other and make a hypothesis. One
-/// hypothesis per token is chosen along the chain by dynamic programming, and a token of another
-/// image serves one edge of the reference only. The disparity is that of the point which is nearest
-/// to the edge lines in all images, in pixels.
+/// 1. CandidateSearch intersects the epipolar line of a token in another image with the linked chains of
+///    that image, which gives candidates with a sub-pixel disparity. Edges of another direction, with
+///    other colours on both sides, or that no edge of a third image can confirm are rejected. A match
+///    continues along an edge, so only every few tokens search their whole epipolar lines, and these
+///    only where no good match leads to them; the others follow their neighbours' candidates along the
+///    chains of the other images. The better side of an edge decides, so that a silhouette is recognized
+///    by the object, whatever its background.
+/// 2. HypothesisBuilder makes a hypothesis of candidates of two images that agree within the tolerance,
+///    by the exact geometry of both pairs: they confirm each other.
+/// 3. ChainOptimizer chooses one hypothesis per token along the chain by dynamic programming.
+/// 4. A token of another image serves only one edge of the reference. RunFitting fits the disparity of
+///    the point nearest to the edge lines in all images, in pixels; RunFilter rejects short runs
+///    without support.
 ///
 /// Returns one match per token. Needs two others at least.
 LargeVector<EdgeMatch> MatchEdges(const ImageEdges& reference,
