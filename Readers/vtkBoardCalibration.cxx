@@ -2,6 +2,8 @@
 #include "vtkBoardCalibration.h"
 
 #include "Calibration/BoardCalibration.h"
+#include "Calibration/BoardImages.h"
+#include "Calibration/BoardText.h"
 #include "Common/Error.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"

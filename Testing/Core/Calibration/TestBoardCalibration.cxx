@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Calibration/BoardCalibration.h"
+#include "Calibration/BoardImages.h"
+#include "Calibration/BoardText.h"
 
 #include "Common/Error.h"
 #include "Support/BoardRendering.h"

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Calibration/BoardImages.h"
+
+#include "Common/AtomicOutput.h"
+#include "Common/Error.h"
+#include "Text/WholeFile.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace freespace
+{
+
+namespace fs = std::filesystem;
+
+cv::Mat ReadGrayImage(const std::string& file)
+{
+  cv::Mat gray;
+  if (fs::is_regular_file(file))
+  {
+    CheckWholeJPEG(file);
+    try
+    {
+      gray = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    }
+    catch (const cv::Exception&)
+    {
+      gray.release(); // reported below
+    }
+  }
+  if (gray.empty())
+  {
+    throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");
+  }
+  return gray;
+}
+
+void WriteBoardPictures(const BoardCalibration& calibration, const std::string& folder)
+{
+  std::error_code ignored;
+  fs::create_directory(folder, ignored);
+  for (const BoardPicture& picture : calibration.pictures)
+  {
+    if (!picture.used)
+    {
+      continue;
+    }
+    const fs::path target = fs::path(folder) / (fs::path(picture.file).stem().string() + ".jpg");
+    const cv::Mat pixels =
+      cv::imread(picture.file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    if (pixels.empty())
+    {
+      throw Error("Cannot read the picture " + picture.file + " again.");
+    }
+    AtomicOutput output(target.string());
+    std::vector<std::uint8_t> jpeg;
+    cv::imencode(".jpg", DrawBoardCorners(pixels, picture.corners), jpeg);
+    output.Write(jpeg.data(), jpeg.size());
+    output.Commit();
+  }
+}
+
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Calibration/BoardCalibration.h"
+
+#include "Calibration/CameraCalibration.h"
+
+#include <filesystem>
+#include <map>
+
+namespace freespace
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+// The simplest lens model that has these coefficients.
+SparseCamera LensOf(const CalibratedImage& image, std::uint32_t id)
+{
+  const Eigen::Matrix3d& K = image.camera.K;
+  std::vector<double> d = image.distortion;
+  const std::size_t coefficients = CountCoefficients(d);
+  d.resize(8, 0.0);
+  SparseCamera camera;
+  camera.id = id;
+  camera.width = static_cast<std::uint64_t>(image.camera.width);
+  camera.height = static_cast<std::uint64_t>(image.camera.height);
+  const bool square = K(0, 0) == K(1, 1);
+  if (square && coefficients <= 2)
+  {
+    constexpr LensModel models[] = { LensModel::SimplePinhole, LensModel::SimpleRadial,
+      LensModel::Radial };
+    camera.model = models[coefficients];
+    camera.parameters = { K(0, 0), K(0, 2), K(1, 2), d[0], d[1] };
+  }
+  else
+  {
+    camera.model = coefficients == 0 ? LensModel::Pinhole
+      : coefficients <= 4            ? LensModel::OpenCV
+                                     : LensModel::FullOpenCV;
+    camera.parameters = { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
+    camera.parameters.insert(camera.parameters.end(), d.begin(), d.end());
+  }
+  camera.parameters.resize(LensModelParameters(camera.model));
+  return camera;
+}
+
+SparseImage PoseOf(const Camera& camera)
+{
+  SparseImage image;
+  const Eigen::Quaterniond q(camera.R);
+  image.rotation = { q.w(), q.x(), q.y(), q.z() };
+  image.translation = camera.t;
+  return image;
+}
+
+}
+
+SparseModel BoardCalibration::Model(const Board& board, const std::string& folder) const
+{
+  SparseModel model;
+  std::vector<SparsePoint> points(BoardPoints(board).size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i].id = i + 1;
+    points[i].position = BoardPoints(board)[i];
+  }
+  std::map<std::pair<int, int>, std::uint32_t> cameras;
+  for (const BoardPicture& picture : this->pictures)
+  {
+    if (!picture.used)
+    {
+      continue;
+    }
+    const auto next = static_cast<std::uint32_t>(cameras.size() + 1);
+    const auto [camera, isNew] = cameras.emplace(
+      std::make_pair(picture.image.camera.width, picture.image.camera.height), next);
+    if (isNew)
+    {
+      model.cameras.push_back(LensOf(picture.image, next));
+    }
+    SparseImage image = PoseOf(picture.image.camera);
+    image.id = static_cast<std::uint32_t>(model.images.size() + 1);
+    image.camera = camera->second;
+    image.name = fs::proximate(fs::absolute(picture.file), fs::absolute(folder)).string();
+    for (std::size_t k = 0; k < picture.corners.ids.size(); ++k)
+    {
+      SparsePoint& point = points[static_cast<std::size_t>(picture.corners.ids[k])];
+      point.track.push_back({ image.id, static_cast<std::uint32_t>(k) });
+      image.observations.push_back({ picture.corners.pixels[k], point.id });
+    }
+    model.images.push_back(std::move(image));
+  }
+  for (SparsePoint& point : points)
+  {
+    if (!point.track.empty())
+    {
+      model.points.push_back(std::move(point));
+    }
+  }
+  return model;
+}
+
+}
