@@ -14,6 +14,7 @@ run("${CMAKE_COMMAND}" -S "${SOURCE}/consumer" -B "${PREFIX}/consumer" -G Ninja
   "-DCMAKE_PREFIX_PATH=${PREFIX}/usr" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${PREFIX}/consumer")
 run("${PREFIX}/consumer/consumer")
+run("${PREFIX}/consumer/core-consumer")
 if(EXISTS "${PREFIX}/usr/bin/freespace")
   run("${PREFIX}/usr/bin/freespace" --version)
 endif()
