@@ -115,8 +115,7 @@ TEST(OSMesaRenderWindow, WindowsShareAnActor)
   SphereWindow first(200, 160, 255);
   SphereWindow second(64, 128, 51);
   second.renderer->RemoveAllViewProps();
-  first.renderer->GetActors()->InitTraversal();
-  second.renderer->AddActor(first.renderer->GetActors()->GetNextActor());
+  second.renderer->AddActor(first.renderer->GetActors()->GetLastActor());
   for (int turn = 0; turn < 2; ++turn)
   {
     first.Check();
