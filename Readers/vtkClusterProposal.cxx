@@ -2,7 +2,8 @@
 #include "vtkClusterProposal.h"
 
 #include "Common/Error.h"
-#include "Scene/ProposeClusters.h"
+#include "ClusterOptions.h"
+#include "Scene/SceneClusters.h"
 
 #include <vtkObjectFactory.h>
 
@@ -10,27 +11,48 @@
 
 vtkStandardNewMacro(vtkClusterProposal);
 
+namespace freespace
+{
+
+ClusterProposalOptions ClusterOptionsOf(vtkClusterProposal* proposal)
+{
+  ClusterProposalOptions options;
+  options.preferredAngle = proposal->GetPreferredAngle();
+  options.minimumAngle = proposal->GetMinimumAngle();
+  options.maximumAngle = proposal->GetMaximumAngle();
+  options.minimumOverlap = proposal->GetMinimumOverlap();
+  options.neighbors = proposal->GetNeighbors();
+  options.separation = proposal->GetSeparation();
+  options.coverage = proposal->GetCoverage();
+  return options;
+}
+
+}
+
 struct vtkClusterProposal::Result
 {
   freespace::Scene scene;
   std::string text;
+  std::string summary;
 };
 
 vtkClusterProposal::vtkClusterProposal()
   : Chosen(std::make_unique<Result>())
 {
+  const freespace::ClusterProposalOptions defaults;
+  this->PreferredAngle = defaults.preferredAngle;
+  this->MinimumAngle = defaults.minimumAngle;
+  this->MaximumAngle = defaults.maximumAngle;
+  this->MinimumOverlap = defaults.minimumOverlap;
+  this->Neighbors = defaults.neighbors;
+  this->Separation = defaults.separation;
+  this->Coverage = defaults.coverage;
 }
 
 vtkClusterProposal::~vtkClusterProposal() = default;
 
 int vtkClusterProposal::Propose()
 {
-  freespace::ClusterProposalOptions options;
-  options.preferredAngle = this->PreferredAngle;
-  options.minimumAngle = this->MinimumAngle;
-  options.maximumAngle = this->MaximumAngle;
-  options.minimumOverlap = this->MinimumOverlap;
-  options.separation = this->Separation;
   *this->Chosen = {};
   try
   {
@@ -47,17 +69,18 @@ int vtkClusterProposal::Propose()
     scene.clusters.clear();
     const freespace::SparseModel model =
       freespace::WithExistingPhotographs(scene, freespace::ReadSceneModel(scene));
-    const auto proposal = freespace::ProposeClusters(model, options);
-    if (proposal.empty())
+    const freespace::ClusterProposal proposal =
+      freespace::ProposeClusters(model, freespace::ClusterOptionsOf(this));
+    if (proposal.Empty())
     {
       throw freespace::Error("No clusters for " + scene.ModelFolder() +
-        ": no photograph has neighbours on opposite sides at angles from " +
-        std::to_string(this->MinimumAngle) + " to " + std::to_string(this->MaximumAngle) +
-        " degrees that see the same.");
+        ": no photograph has two neighbours at angles from " + std::to_string(this->MinimumAngle) +
+        " to " + std::to_string(this->MaximumAngle) + " degrees that see the same.");
     }
-    scene.clusters = freespace::ClustersFromProposal(model, proposal);
+    scene.clusters = freespace::ClustersFromProposal(model, proposal.clusters);
     this->Chosen->scene = std::move(scene);
-    this->Chosen->text = freespace::DescribeProposal(model, proposal);
+    this->Chosen->text = freespace::DescribeClusters(model, proposal.clusters);
+    this->Chosen->summary = freespace::DescribeChoice(model, proposal);
   }
   catch (const std::exception& error)
   {
@@ -93,6 +116,11 @@ std::string vtkClusterProposal::GetText()
   return this->Chosen->text;
 }
 
+std::string vtkClusterProposal::GetSummary()
+{
+  return this->Chosen->summary;
+}
+
 int vtkClusterProposal::WriteScene(const std::string& fileName)
 {
   try
@@ -126,6 +154,8 @@ void vtkClusterProposal::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
   os << indent << "MaximumAngle: " << this->MaximumAngle << "\n";
   os << indent << "MinimumOverlap: " << this->MinimumOverlap << "\n";
+  os << indent << "Neighbors: " << this->Neighbors << "\n";
   os << indent << "Separation: " << this->Separation << "\n";
+  os << indent << "Coverage: " << this->Coverage << "\n";
   os << indent << "NumberOfClusters: " << this->GetNumberOfClusters() << "\n";
 }

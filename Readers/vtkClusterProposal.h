@@ -4,10 +4,12 @@
  * @brief choose the clusters of images for edge stereo
  *
  * Section 3 of the paper takes clusters of five images, "in a cross", whose middle one is the
- * reference; a row of three will do too. For each image of a scene this class looks for the
- * neighbours that make the best cross, or else the best row, by baseline, overlap and viewing
- * angle, and of all these clusters keeps the good ones whose references do not stand too near to
- * each other. Clusters that the scene.json has are left out of account.
+ * reference; a row of three or five will do too, and at its end a reference beside its neighbours. For
+ * each image of a scene this class looks for the neighbours that make the best cross, or else the best
+ * row, by baseline, overlap and viewing angle: of those that stand about it, since one set's spacing is
+ * not another's. Of all these clusters it keeps those that are worth their time: references keep a
+ * separation, and in larger sets an image is left out that several references cover. Clusters that the
+ * scene.json has are left out of account.
  *
  * The depth of the scene and what images have in common come from the points of the camera model;
  * for an image without points from where the optical axes of its neighbours pass its own. Angles
@@ -15,9 +17,12 @@
  * model. Images whose photograph is missing from the folder of the images are not proposed, as long
  * as that folder exists at all.
  *
- * Propose() reads the scene and chooses; the result can be printed (GetText), asked for, and saved
- * as a scene.json (WriteScene). What cannot be read or written, and a scene in which no image has
- * neighbours on opposite sides, is an error that names the file; the functions then return 0.
+ * Propose() reads the scene and chooses; the result can be printed (GetText, GetSummary), asked for, and
+ * saved as a scene.json (WriteScene). What cannot be read or written, and a scene in which no image has
+ * two suitable neighbours, is an error that names the file; the functions then return 0.
+ *
+ * vtkEdgeStereoReader chooses by itself where a scene names no clusters; one of these, with other
+ * parameters, tells it how (vtkEdgeStereoReader::SetClusterProposal).
  */
 #ifndef vtkClusterProposal_h
 #define vtkClusterProposal_h
@@ -72,7 +77,7 @@ public:
 
   ///@{
   /**
-   * Neighbours at more than this angle are not taken, in degrees. Default 20.
+   * Neighbours at more than this angle are not taken, in degrees. Default 30.
    */
   vtkSetMacro(MaximumAngle, double);
   vtkGetMacro(MaximumAngle, double);
@@ -88,11 +93,29 @@ public:
 
   ///@{
   /**
+   * With how many neighbours a reference is matched at most: 2 or 4, of which the second two stand across
+   * the first two or farther out. Default 4.
+   */
+  vtkSetClampMacro(Neighbors, int, 2, 4);
+  vtkGetMacro(Neighbors, int);
+  ///@}
+
+  ///@{
+  /**
    * References nearer to each other than this, seen from the scene in degrees, have the same free
    * space: only the better is kept. 0 makes every image that can be one a reference. Default 5.
    */
   vtkSetMacro(Separation, double);
   vtkGetMacro(Separation, double);
+  ///@}
+
+  ///@{
+  /**
+   * In sets of more than two dozen images one is not needed as a reference when so many others, none
+   * farther than 20 degrees from it, see most of what it sees. 0: no limit. Default 3.
+   */
+  vtkSetMacro(Coverage, int);
+  vtkGetMacro(Coverage, int);
   ///@}
 
   /**
@@ -115,6 +138,12 @@ public:
   std::string GetText();
 
   /**
+   * In one line, how many of the images are references, how many see what others see, and which have no
+   * neighbours.
+   */
+  std::string GetSummary();
+
+  /**
    * Write a scene.json with the clusters that Propose() chose. Returns 1, or 0 after an error.
    */
   int WriteScene(const std::string& fileName);
@@ -126,11 +155,13 @@ protected:
   std::string FileName;
   std::string Model;
   std::string Images;
-  double PreferredAngle = 5.0;
-  double MinimumAngle = 1.0;
-  double MaximumAngle = 20.0;
-  double MinimumOverlap = 0.4;
-  double Separation = 5.0;
+  double PreferredAngle;
+  double MinimumAngle;
+  double MaximumAngle;
+  double MinimumOverlap;
+  int Neighbors;
+  double Separation;
+  int Coverage;
 
 private:
   vtkClusterProposal(const vtkClusterProposal&) = delete;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkEdgeStereoReader.h"
 
+#include "ClusterOptions.h"
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Scene/EveryImage.h"
-#include "Scene/ProposeClusters.h"
+#include "Scene/SceneClusters.h"
 #include "Stereo/EdgeStereo.h"
+#include "vtkClusterProposal.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -40,8 +42,21 @@ private:
   int Before = cv::getNumThreads();
 };
 
-// More views than these clusters have images take long, and see what is to be seen anyway.
-constexpr std::size_t FewClusters = 12;
+// With so many images the time is short when every one makes a view; more see what is to be seen anyway.
+constexpr std::size_t FewImages = 15;
+
+bool IsSmall(const std::vector<freespace::Cluster>& clusters)
+{
+  std::set<std::string> images;
+  for (const freespace::Cluster& cluster : clusters)
+  {
+    for (const auto& triplet : cluster.triplets)
+    {
+      images.insert(triplet.begin(), triplet.end());
+    }
+  }
+  return images.size() <= FewImages;
+}
 
 // The files that a scene's features come from, beside its own.
 std::vector<std::string> FilesOf(const freespace::Scene& scene)
@@ -119,6 +134,15 @@ vtkEdgeStereoReader::vtkEdgeStereoReader()
   this->SetNumberOfInputPorts(0);
 }
 
+vtkEdgeStereoReader::~vtkEdgeStereoReader() = default;
+
+vtkCxxSetSmartPointerMacro(vtkEdgeStereoReader, ClusterProposal, vtkClusterProposal);
+
+vtkClusterProposal* vtkEdgeStereoReader::GetClusterProposal()
+{
+  return this->ClusterProposal;
+}
+
 vtkMTimeType vtkEdgeStereoReader::GetMTime()
 {
   const long long time = TimeOfFiles(this->FileName, this->FilesRead);
@@ -127,7 +151,8 @@ vtkMTimeType vtkEdgeStereoReader::GetMTime()
     this->FilesTime = time;
     this->FilesChanged.Modified();
   }
-  return std::max(this->Superclass::GetMTime(), this->FilesChanged.GetMTime());
+  const vtkMTimeType proposal = this->ClusterProposal ? this->ClusterProposal->GetMTime() : 0;
+  return std::max({ this->Superclass::GetMTime(), this->FilesChanged.GetMTime(), proposal });
 }
 
 int vtkEdgeStereoReader::RequestData(
@@ -135,6 +160,7 @@ int vtkEdgeStereoReader::RequestData(
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   this->FilesRead.clear();
+  this->ClusterSummary.clear();
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   try
   {
@@ -159,13 +185,15 @@ int vtkEdgeStereoReader::RequestData(
       options.matching.minimumDisparity = 1 / this->MaximumDepth;
     }
     options.Check();
-    freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName);
+    freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName,
+      this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
+                            : freespace::ClusterProposalOptions(),
+      &this->ClusterSummary);
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
-    const bool isLeftOpen = this->EveryImage == WHERE_NONE_WAS_CHOSEN && needed <= FewClusters &&
-      freespace::ReadScene(this->FileName).clusters.empty();
-    if (this->EveryImage == ALWAYS || isLeftOpen)
+    if (this->EveryImage == ALWAYS ||
+      (this->EveryImage == IN_SMALL_SCENES && IsSmall(scene.clusters)))
     {
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
@@ -199,4 +227,6 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorTolerance: " << this->ColorTolerance << "\n";
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
   os << indent << "EveryImage: " << this->EveryImage << "\n";
+  os << indent << "ClusterProposal: " << this->ClusterProposal.Get() << "\n";
+  os << indent << "ClusterSummary: " << this->ClusterSummary << "\n";
 }

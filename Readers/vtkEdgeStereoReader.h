@@ -32,7 +32,7 @@
  * | FieldData | ImageFile        | string           | the reference image, relative to the images    |
  *
  * With EveryImage on, every image of a cluster is the reference of a view of its own, over the same
- * images: a cross gives five views instead of one. That is beyond the paper, and takes several times
+ * images: a cross gives five views instead of one. That is beyond the paper, and takes up to three times
  * as long here and in the stages that follow. The others see a little round the things that hide the
  * rest from the middle, which leaves less matter between things that stand close together. These
  * views come after those of the references, named after cluster and image; one without three features
@@ -52,8 +52,12 @@
 #include "vtkFreespaceReadersModule.h" // for the export macro
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
+#include "vtkSmartPointer.h"              // for the cluster proposal
+
 #include <string> // for FileName
 #include <vector> // for FilesRead
+
+class vtkClusterProposal;
 
 class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
 {
@@ -142,19 +146,34 @@ public:
   ///@{
   /**
    * Whether every image of a cluster makes a view, not the reference alone: never (off), always (on), or
-   * in small scenes (up to 12 clusters) that name no clusters, so that nobody chose the references.
-   * Default off.
+   * in small scenes, whose clusters have no more than 15 images in all. There the images that are no
+   * references see most that is new, and the time is short. Default off.
    */
   enum EveryImageMode
   {
     NEVER = 0,
     ALWAYS = 1,
-    WHERE_NONE_WAS_CHOSEN = 2
+    IN_SMALL_SCENES = 2
   };
-  vtkSetClampMacro(EveryImage, int, NEVER, WHERE_NONE_WAS_CHOSEN);
+  vtkSetClampMacro(EveryImage, int, NEVER, IN_SMALL_SCENES);
   vtkGetMacro(EveryImage, int);
   vtkBooleanMacro(EveryImage, int);
   ///@}
+
+  ///@{
+  /**
+   * How clusters are chosen where the scene.json names none: by the parameters of this object. None, the
+   * default, stands for one with the default parameters.
+   */
+  void SetClusterProposal(vtkClusterProposal* proposal);
+  vtkClusterProposal* GetClusterProposal();
+  ///@}
+
+  /**
+   * After Update(): in one line, how many of the images were chosen to be references and which have no
+   * neighbours, see vtkClusterProposal::GetSummary. Empty when the scene.json names its clusters.
+   */
+  std::string GetClusterSummary() { return this->ClusterSummary; }
 
   /**
    * Later than the reader's own time when one of the files that it has read has changed since: the
@@ -164,7 +183,7 @@ public:
 
 protected:
   vtkEdgeStereoReader();
-  ~vtkEdgeStereoReader() override = default;
+  ~vtkEdgeStereoReader() override;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
@@ -184,6 +203,8 @@ private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
   void operator=(const vtkEdgeStereoReader&) = delete;
 
+  vtkSmartPointer<vtkClusterProposal> ClusterProposal;
+  std::string ClusterSummary;
   vtkTimeStamp FilesChanged;
   long long FilesTime = 0;            // of when all of them were written
   std::vector<std::string> FilesRead; // beside the scene's

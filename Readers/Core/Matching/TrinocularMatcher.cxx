@@ -2,12 +2,14 @@
 #include "Matching/TrinocularMatcher.h"
 
 #include "Common/Error.h"
+#include "Epipolar/EpipolarPair.h"
 #include "Matching/ChainOptimizer.h"
 #include "Matching/DisparityPrior.h"
 #include "Matching/RunFilter.h"
 #include "Matching/RunFitting.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -127,6 +129,23 @@ void Matcher::EnforceUniqueness()
   }
 }
 
+// The options with the limit of the gradient in pixels of the longest baseline, which the steps measure
+// disparities in, instead of the shortest.
+MatcherOptions InPixelsOfTheLongest(
+  const ImageEdges& reference, const std::vector<ImageEdges>& others, MatcherOptions options)
+{
+  constexpr double most = 4;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const ImageEdges& other : others)
+  {
+    const double baseline = EpipolarPair(reference.camera, other.camera).Baseline;
+    shortest = std::min(shortest, baseline);
+    longest = std::max(longest, baseline);
+  }
+  options.gradientLimit *= shortest > 0 ? std::min(most, longest / shortest) : most;
+  return options;
+}
+
 }
 
 LargeVector<EdgeMatch> MatchEdges(
@@ -137,7 +156,8 @@ LargeVector<EdgeMatch> MatchEdges(
   {
     throw Error("Trinocular matching needs three images.");
   }
-  return Matcher(reference, others, options).Match();
+  const MatcherOptions scaled = InPixelsOfTheLongest(reference, others, options);
+  return Matcher(reference, others, scaled).Match();
 }
 
 }

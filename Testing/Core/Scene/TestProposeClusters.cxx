@@ -2,7 +2,6 @@
 #include "Scene/ProposeClusters.h"
 
 #include "Common/Error.h"
-#include "Scene/CenterIndex.h"
 #include "Support/SharedData.h"
 
 #include <gtest/gtest.h>
@@ -80,6 +79,12 @@ std::set<int> Members(const ProposedCluster& cluster)
   return members;
 }
 
+std::vector<ProposedCluster> Propose(
+  const SparseModel& model, const ClusterProposalOptions& options = ClusterProposalOptions())
+{
+  return ProposeClusters(model, options).clusters;
+}
+
 ClusterProposalOptions All()
 {
   ClusterProposalOptions options;
@@ -107,52 +112,11 @@ void AddPoints(SparseModel& model, int count, double size)
 
 }
 
-TEST(CenterIndex, AgainstBruteForce)
-{
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  std::vector<Eigen::Vector3d> centers;
-  for (int i = 0; i < 300; ++i)
-  {
-    centers.push_back({ coordinate(random), coordinate(random), coordinate(random) });
-  }
-  const CenterIndex index(centers);
-  for (int trial = 0; trial < 50; ++trial)
-  {
-    const Eigen::Vector3d query(coordinate(random), coordinate(random), coordinate(random));
-    std::vector<int> order(centers.size()), within;
-    for (int i = 0; i < 300; ++i)
-    {
-      order[i] = i;
-      if ((centers[i] - query).norm() < 0.4)
-      {
-        within.push_back(i);
-      }
-    }
-    std::sort(order.begin(), order.end(),
-      [&](int a, int b)
-      { return (centers[a] - query).squaredNorm() < (centers[b] - query).squaredNorm(); });
-    order.resize(7);
-    EXPECT_EQ(index.Nearest(query, 7), order);
-    EXPECT_EQ(index.Within(query, 0.4), within);
-  }
-}
-
-TEST(CenterIndex, EmptyAndDuplicates)
-{
-  const CenterIndex empty({});
-  EXPECT_TRUE(empty.Nearest({ 0, 0, 0 }, 3).empty());
-  EXPECT_TRUE(empty.Within({ 0, 0, 0 }, 3).empty());
-  const CenterIndex same(std::vector<Eigen::Vector3d>(100, Eigen::Vector3d(1, 2, 3)));
-  EXPECT_EQ(same.Nearest({ 0, 0, 0 }, 5).size(), 5u);
-  EXPECT_EQ(same.Within({ 1, 2, 3 }, 0.1).size(), 100u);
-}
-
 TEST(ProposeClusters, OneCross)
 {
   SparseModel model = EmptyModel();
   AddCross(model, 0, 0, 4);
-  const std::vector<ProposedCluster> clusters = ProposeClusters(model, {});
+  const std::vector<ProposedCluster> clusters = Propose(model);
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(clusters[0].reference, 0);
   ASSERT_EQ(clusters[0].triplets.size(), 2u);
@@ -175,7 +139,7 @@ TEST(ProposeClusters, RolledReference)
   SparseModel rolled = EmptyModel();
   AddImage(rolled, OnSphere(0, 0), Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 0.5, 0));
   rolled.images.insert(rolled.images.end(), model.images.begin() + 1, model.images.end());
-  const std::vector<ProposedCluster> clusters = ProposeClusters(rolled, {});
+  const std::vector<ProposedCluster> clusters = Propose(rolled);
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(Members(clusters[0]).size(), 5u);
 }
@@ -186,9 +150,10 @@ TEST(ProposeClusters, SeveralCrosses)
   AddCross(model, 0, 0, 4);
   AddCross(model, 40, 0, 4);
   AddCross(model, -40, 20, 4);
-  EXPECT_EQ(References(ProposeClusters(model, {})), (std::set<int>{ 0, 5, 10 }));
+  EXPECT_EQ(References(Propose(model)), (std::set<int>{ 0, 5, 10 }));
 }
 
+// A row's inner images stand between their neighbours, the ends beside them.
 TEST(ProposeClusters, Row)
 {
   SparseModel model = EmptyModel();
@@ -196,11 +161,157 @@ TEST(ProposeClusters, Row)
   {
     AddImage(model, OnSphere(6 * i, 0), Eigen::Vector3d::Zero());
   }
-  const std::vector<ProposedCluster> clusters = ProposeClusters(model, All());
-  EXPECT_EQ(References(clusters), (std::set<int>{ 1, 2, 3 }));
-  ASSERT_FALSE(clusters.empty());
-  ASSERT_EQ(clusters[0].triplets.size(), 1u);
-  EXPECT_EQ(clusters[0].triplets[0].neighbors, (std::array<int, 2>{ 0, 2 }));
+  const std::vector<ProposedCluster> clusters = Propose(model, All());
+  EXPECT_EQ(References(clusters), (std::set<int>{ 0, 1, 2, 3, 4 }));
+  ASSERT_EQ(clusters.size(), 5u);
+  EXPECT_EQ(clusters[1].triplets[0].neighbors, (std::array<int, 2>{ 0, 2 }));
+  EXPECT_EQ(clusters[2].triplets[0].neighbors, (std::array<int, 2>{ 1, 3 }));
+  ASSERT_EQ(clusters[2].triplets.size(), 2u) << "one pair farther out";
+  EXPECT_EQ(clusters[2].triplets[1].neighbors, (std::array<int, 2>{ 0, 4 }));
+  EXPECT_FALSE(clusters[2].cross);
+  EXPECT_EQ(Members(clusters[0]), (std::set<int>{ 0, 1, 2 }));
+  EXPECT_EQ(Members(clusters[4]), (std::set<int>{ 2, 3, 4 }));
+  ClusterProposalOptions two = All();
+  two.neighbors = 2;
+  EXPECT_EQ(Propose(model, two)[2].triplets.size(), 1u);
+}
+
+// What is usual in one part of a set is not held against another: a dense row and a wide one.
+TEST(ProposeClusters, EachPartByItsOwnSpacing)
+{
+  SparseModel model = EmptyModel();
+  for (int i = 0; i < 5; ++i)
+  {
+    AddImage(model, OnSphere(5 * i - 60, 0), Eigen::Vector3d::Zero());
+  }
+  for (int i = 0; i < 5; ++i)
+  {
+    AddImage(model, OnSphere(13 * i, 0), Eigen::Vector3d::Zero());
+  }
+  const ClusterProposal proposal = ProposeClusters(model, {});
+  EXPECT_TRUE(proposal.alone.empty());
+  for (int i = 5; i < 10; ++i)
+  {
+    EXPECT_EQ(References(proposal.clusters).count(i), 1u) << i;
+  }
+}
+
+// A ring on the way round and some images high above: all are used, in crosses or rows.
+TEST(ProposeClusters, RingAndWideTop)
+{
+  SparseModel model = EmptyModel();
+  const auto add = [&](int count, double elevation)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      const double azimuth = 2 * M_PI * i / count, e = elevation * M_PI / 180;
+      const Eigen::Vector3d center(
+        std::cos(azimuth) * std::cos(e), std::sin(azimuth) * std::cos(e), std::sin(e));
+      AddImage(model, center, Eigen::Vector3d::Zero(),
+        Eigen::Vector3d(-std::sin(azimuth), std::cos(azimuth), 0));
+    }
+  };
+  add(40, 25);
+  add(8, 60);
+  const ClusterProposal proposal = ProposeClusters(model, {});
+  EXPECT_TRUE(proposal.alone.empty());
+  const std::set<int> references = References(proposal.clusters);
+  EXPECT_EQ(std::count_if(references.begin(), references.end(), [](int i) { return i >= 40; }), 8);
+  const auto ring = std::count_if(references.begin(), references.end(), [](int i) { return i < 40; });
+  EXPECT_LT(ring, 34) << "nine degrees apart: denser than needed";
+  EXPECT_GE(ring, 18);
+  for (int i = 0; i < 40; ++i)
+  {
+    EXPECT_TRUE(references.count(i) || references.count((i + 1) % 40)) << "a gap at " << i;
+  }
+}
+
+// A hemisphere of 300 images: few enough are references, and every image has some near it.
+TEST(ProposeClusters, HemisphereIsThinnedEvenly)
+{
+  SparseModel model = EmptyModel();
+  const int count = 300;
+  for (int i = 0; i < count; ++i)
+  {
+    const double z = 0.1 + 0.8 * i / count, azimuth = i * M_PI * (3 - std::sqrt(5.0));
+    const double r = std::sqrt(1 - z * z);
+    AddImage(model, { r * std::cos(azimuth), r * std::sin(azimuth), z }, Eigen::Vector3d::Zero(),
+      Eigen::Vector3d(-std::sin(azimuth), std::cos(azimuth), 0));
+  }
+  const ClusterProposal proposal = ProposeClusters(model, {});
+  EXPECT_TRUE(proposal.alone.empty());
+  EXPECT_LT(proposal.clusters.size(), 140u);
+  EXPECT_GT(proposal.clusters.size(), 40u);
+  EXPECT_EQ(proposal.clusters.size() + proposal.spare.size(), static_cast<std::size_t>(count));
+  const std::vector<CalibratedImage> images = CalibratedImages(model);
+  for (int i : proposal.spare)
+  {
+    int near = 0;
+    for (int r : References(proposal.clusters))
+    {
+      const double distance = (images[i].camera.Center() - images[r].camera.Center()).norm();
+      near += distance < std::tan(20.5 * M_PI / 180);
+    }
+    EXPECT_GE(near, 3) << "image " << i;
+  }
+  for (const ProposedCluster& cluster : proposal.clusters)
+  {
+    EXPECT_EQ(cluster.triplets.size(), 2u);
+  }
+}
+
+// Nine cameras in a square, all looking the same way: a cross in the middle, rows around it.
+TEST(ProposeClusters, ArrayOfParallelCameras)
+{
+  SparseModel model = EmptyModel();
+  for (int i = 0; i < 9; ++i)
+  {
+    const Eigen::Vector3d center(0.1 * (i % 3), 0.1 * (i / 3), 0);
+    AddImage(model, center, center + Eigen::Vector3d::UnitZ());
+  }
+  const ClusterProposal proposal = ProposeClusters(model, All());
+  ASSERT_EQ(proposal.clusters.size(), 9u);
+  EXPECT_TRUE(proposal.clusters[4].cross);
+  EXPECT_EQ(Members(proposal.clusters[4]), (std::set<int>{ 1, 3, 4, 5, 7 }));
+}
+
+// Along a street, parallel cameras with overlap: all but what the separation merges.
+TEST(ProposeClusters, Street)
+{
+  SparseModel model = EmptyModel();
+  for (int i = 0; i < 30; ++i)
+  {
+    AddImage(model, { 0.1 * i, 0, 0 }, { 0.1 * i, 0, 1 });
+  }
+  AddPoints(model, 0, 0);
+  const ClusterProposal proposal = ProposeClusters(model, {});
+  EXPECT_TRUE(proposal.alone.empty());
+  EXPECT_GE(proposal.clusters.size(), 9u);
+}
+
+// In the hand: the way wobbles up and down, and the distance changes.
+TEST(ProposeClusters, ArcInTheHand)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> wobble(-2, 2), distance(0.9, 1.1);
+  SparseModel model = EmptyModel();
+  for (int i = 0; i < 11; ++i)
+  {
+    AddImage(model, OnSphere(7 * (i - 5) + wobble(random), wobble(random), distance(random)),
+      Eigen::Vector3d(0, 0, 0));
+  }
+  const ClusterProposal proposal = ProposeClusters(model, {});
+  EXPECT_TRUE(proposal.alone.empty());
+  EXPECT_GE(proposal.clusters.size(), 9u);
+}
+
+TEST(ProposeClusters, TellsWhatBecameOfTheImages)
+{
+  SparseModel model = EmptyModel();
+  AddCross(model, 0, 0, 4);
+  AddImage(model, OnSphere(60, 0), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(DescribeChoice(model, ProposeClusters(model, {})),
+    "1 of 6 images are references; 4 see what these see; 1 has no partner: 5.jpg");
 }
 
 // The neighbours next to the reference are too near; those at the preferred angle are not.
@@ -211,13 +322,18 @@ TEST(ProposeClusters, DenseRowTakesThePreferredAngle)
   {
     AddImage(model, OnSphere((i - 60) * 0.25, 0), Eigen::Vector3d::Zero());
   }
-  const std::vector<ProposedCluster> clusters = ProposeClusters(model, {});
-  EXPECT_LE(clusters.size(), 6u) << "30 degrees at a separation of 5";
+  const std::vector<ProposedCluster> clusters = Propose(model);
+  EXPECT_LE(clusters.size(), 8u) << "30 degrees at a separation of 5";
   EXPECT_GE(clusters.size(), 3u);
   for (const ProposedCluster& cluster : clusters)
   {
-    EXPECT_NEAR(cluster.triplets[0].angle[0], 5, 0.6);
-    EXPECT_NEAR(cluster.triplets[0].angle[1], 5, 0.6);
+    const std::array<int, 2>& neighbors = cluster.triplets[0].neighbors;
+    if (neighbors[0] > cluster.reference || neighbors[1] < cluster.reference)
+    {
+      continue; // at an end
+    }
+    EXPECT_NEAR(cluster.triplets[0].angle[0], 5, 1.5);
+    EXPECT_NEAR(cluster.triplets[0].angle[1], 5, 1.5);
   }
 }
 
@@ -228,8 +344,10 @@ TEST(ProposeClusters, ReferencesKeepTheirSeparation)
   {
     AddImage(model, OnSphere(i % 9 * 3 - 12, i / 9 * 3 - 12), Eigen::Vector3d::Zero());
   }
-  const std::vector<ProposedCluster> chosen = ProposeClusters(model, {});
-  const std::vector<ProposedCluster> all = ProposeClusters(model, All());
+  ClusterProposalOptions separated;
+  separated.coverage = 0;
+  const std::vector<ProposedCluster> chosen = Propose(model, separated);
+  const std::vector<ProposedCluster> all = Propose(model, All());
   EXPECT_GE(all.size(), 49u) << "every image inside the grid can be a reference";
   EXPECT_LT(chosen.size(), all.size() / 2);
   const std::vector<CalibratedImage> images = CalibratedImages(model);
@@ -255,7 +373,8 @@ TEST(ProposeClusters, ParallelCameras)
   {
     AddImage(model, { 0.1 * i, 0, 0 }, { 0.1 * i, 0, 1 });
   }
-  EXPECT_EQ(References(ProposeClusters(model, {})), (std::set<int>{ 1 }));
+  EXPECT_EQ(Propose(model).front().triplets.size(), 1u);
+  EXPECT_EQ(References(Propose(model, All())), (std::set<int>{ 0, 1, 2 }));
 }
 
 // By the axes the scene is at 1; the points, which decide, are at 0.4 where the angles are too
@@ -263,15 +382,15 @@ TEST(ProposeClusters, ParallelCameras)
 TEST(ProposeClusters, PointsTellTheDepth)
 {
   SparseModel model = EmptyModel();
-  AddCross(model, 0, 0, 12);
-  ASSERT_EQ(ProposeClusters(model, {}).size(), 1u);
+  AddCross(model, 0, 0, 14);
+  ASSERT_FALSE(Propose(model).empty());
   AddPoints(model, 50, 0.05);
-  EXPECT_EQ(ProposeClusters(model, {}).size(), 1u);
+  EXPECT_FALSE(Propose(model).empty());
   for (SparsePoint& point : model.points)
   {
     point.position.z() -= 0.6;
   }
-  EXPECT_TRUE(ProposeClusters(model, {}).empty());
+  EXPECT_TRUE(Propose(model).empty());
 }
 
 // Images that have no point in common do not see the same thing, even where geometry says so.
@@ -281,7 +400,7 @@ TEST(ProposeClusters, NothingInCommon)
   AddCross(model, 0, 0, 4);
   AddPoints(model, 50, 0.05);
   model.images[1].observations.clear();
-  const std::vector<ProposedCluster> clusters = ProposeClusters(model, {});
+  const std::vector<ProposedCluster> clusters = Propose(model);
   ASSERT_EQ(clusters.size(), 1u);
   EXPECT_EQ(Members(clusters[0]), (std::set<int>{ 0, 3, 4 }));
 }
@@ -289,11 +408,11 @@ TEST(ProposeClusters, NothingInCommon)
 TEST(ProposeClusters, TooFewImages)
 {
   SparseModel model = EmptyModel();
-  EXPECT_TRUE(ProposeClusters(model, {}).empty());
+  EXPECT_TRUE(Propose(model).empty());
   AddImage(model, OnSphere(0, 0), Eigen::Vector3d::Zero());
-  EXPECT_TRUE(ProposeClusters(model, {}).empty());
+  EXPECT_TRUE(Propose(model).empty());
   AddImage(model, OnSphere(4, 0), Eigen::Vector3d::Zero());
-  EXPECT_TRUE(ProposeClusters(model, {}).empty());
+  EXPECT_TRUE(Propose(model).empty());
 }
 
 TEST(ProposeClusters, CoincidentCamerasAndAForwardRow)
@@ -305,8 +424,8 @@ TEST(ProposeClusters, CoincidentCamerasAndAForwardRow)
     AddImage(same, OnSphere(0, 0), Eigen::Vector3d::Zero());
     AddImage(forward, { 0, 0, 0.1 * i }, { 0, 0, 5 });
   }
-  EXPECT_TRUE(ProposeClusters(same, {}).empty());
-  EXPECT_TRUE(ProposeClusters(forward, {}).empty());
+  EXPECT_TRUE(Propose(same).empty());
+  EXPECT_TRUE(Propose(forward).empty());
 }
 
 TEST(ProposeClusters, OptionsOutOfRange)
@@ -315,10 +434,16 @@ TEST(ProposeClusters, OptionsOutOfRange)
   options.minimumAngle = 0;
   EXPECT_THROW(ProposeClusters(EmptyModel(), options), Error);
   options = {};
-  options.preferredAngle = 30;
+  options.preferredAngle = 31;
   EXPECT_THROW(ProposeClusters(EmptyModel(), options), Error);
   options = {};
   options.minimumOverlap = NAN;
+  EXPECT_THROW(ProposeClusters(EmptyModel(), options), Error);
+  options = {};
+  options.neighbors = 3;
+  EXPECT_THROW(ProposeClusters(EmptyModel(), options), Error);
+  options = {};
+  options.coverageAngle = 0;
   EXPECT_THROW(ProposeClusters(EmptyModel(), options), Error);
   options = {};
   options.separation = -1;
@@ -332,14 +457,15 @@ TEST(ProposeClusters, NamesAfterTheReference)
   AddCross(model, 40, 0, 4);
   model.images[0].name = "a/x.jpg";
   model.images[5].name = "b/x.jpg";
-  const std::vector<Cluster> clusters = ClustersFromProposal(model, ProposeClusters(model, {}));
+  const std::vector<Cluster> clusters = ClustersFromProposal(model, Propose(model));
   ASSERT_EQ(clusters.size(), 2u);
   EXPECT_EQ(clusters[0].name, "a_x.jpg");
   EXPECT_EQ(clusters[1].reference, "b/x.jpg");
   EXPECT_EQ(clusters[1].triplets[0][1], "b/x.jpg");
 }
 
-// The six crosses of the blocks scene, and all arcs of the vase's, are found without being told.
+// The six crosses of the blocks scene, and all arcs of the vase's, are found without being told, the arcs
+// among larger clusters.
 TEST(ProposeClusters, ClustersOfTheSharedScenes)
 {
   for (const std::string name : { "blocks", "charuco", "vase" })
@@ -351,17 +477,23 @@ TEST(ProposeClusters, ClustersOfTheSharedScenes)
     }
     const Scene scene = ReadScene(file);
     const SparseModel model = ReadSceneModel(scene);
-    const std::vector<Cluster> found = ClustersFromProposal(model, ProposeClusters(model, {}));
-    EXPECT_EQ(found.size(), scene.clusters.size()) << name;
+    const std::vector<Cluster> found = ClustersFromProposal(model, Propose(model));
+    EXPECT_GE(found.size(), scene.clusters.size()) << name;
     for (const Cluster& expected : scene.clusters)
     {
       const auto same = std::find_if(found.begin(), found.end(),
         [&](const Cluster& cluster) { return cluster.reference == expected.reference; });
       ASSERT_NE(same, found.end()) << name << ": " << expected.reference;
-      const std::set<std::array<std::string, 3>> a(same->triplets.begin(), same->triplets.end());
-      const std::set<std::array<std::string, 3>> b(
-        expected.triplets.begin(), expected.triplets.end());
-      EXPECT_EQ(a, b) << name << ": " << expected.reference;
+      std::set<std::string> members;
+      for (const std::array<std::string, 3>& triplet : same->triplets)
+      {
+        members.insert(triplet.begin(), triplet.end());
+      }
+      for (const std::array<std::string, 3>& triplet : expected.triplets)
+      {
+        EXPECT_EQ(members.count(triplet[0]), 1u) << name << ": " << expected.reference;
+        EXPECT_EQ(members.count(triplet[2]), 1u) << name << ": " << expected.reference;
+      }
     }
   }
 }

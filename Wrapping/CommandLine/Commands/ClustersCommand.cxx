@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Stages/ClusterChoice.h"
 
 #include <vtkClusterProposal.h>
 #include <vtkNew.h>
@@ -22,9 +22,7 @@ struct Settings
   std::string scene;
   std::string images;
   std::string output;
-  double preferredAngle = 5;
-  double minimumOverlap = 0.4;
-  double separation = 5;
+  ClusterChoice clusters;
 };
 
 void AddOptions(CLI::App& command, Settings& settings)
@@ -37,19 +35,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("IMAGES");
   command.add_option("-o,--output", settings.output, "Write the scene with these clusters")
     ->type_name("OUT.json");
-  command.add_option("--angle", settings.preferredAngle, "Best angle between neighbours, degrees")
-    ->check(Positive())
-    ->capture_default_str();
-  command
-    .add_option("--overlap", settings.minimumOverlap,
-      "Least part of the reference's picture that a neighbour must see")
-    ->check(CLI::Range(0.0, 1.0))
-    ->capture_default_str();
-  command
-    .add_option("--separation", settings.separation,
-      "Of references nearer than this keep one, degrees; 0 keeps all")
-    ->check(NonNegative())
-    ->capture_default_str();
+  settings.clusters.AddOptions(command, "Clusters");
 }
 
 void ProposeClusters(Session& session, const Settings& settings)
@@ -64,9 +50,7 @@ void ProposeClusters(Session& session, const Settings& settings)
   {
     proposal->SetFileName(settings.scene);
   }
-  proposal->SetPreferredAngle(settings.preferredAngle);
-  proposal->SetMinimumOverlap(settings.minimumOverlap);
-  proposal->SetSeparation(settings.separation);
+  settings.clusters.Apply(proposal);
   proposal->Propose();
   session.ThrowIfFailed();
   if (!settings.output.empty())
@@ -74,7 +58,7 @@ void ProposeClusters(Session& session, const Settings& settings)
     proposal->WriteScene(settings.output);
     session.ThrowIfFailed();
   }
-  std::cout << proposal->GetText();
+  std::cout << proposal->GetText() << proposal->GetSummary() << "\n";
 }
 
 }

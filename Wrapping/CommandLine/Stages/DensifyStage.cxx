@@ -91,6 +91,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const 
   vtkNew<vtkClusterProposal> proposal;
   proposal->SetModel(model);
   proposal->SetImages(this->Images);
+  stereo.Clusters().Apply(proposal);
   proposal->Propose();
   try
   {
@@ -102,6 +103,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const 
     session.Log(std::string("densify: nothing is added. ") + error.what());
     return sparse;
   }
+  session.Log("clusters: " + proposal->GetSummary());
   proposal->WriteScene(scratch.Scene());
   session.ThrowIfFailed();
   const auto edges = stereo.Run(session, scratch.Scene());

@@ -5,6 +5,7 @@
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
 
+#include <vtkClusterProposal.h>
 #include <vtkEdgeStereoReader.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -28,13 +29,13 @@ void StereoStage::AddOptions(CLI::App& command)
     ->group("Stereo");
   command
     .add_option("--every-image", this->EveryImage,
-      "Every image of a cluster is a view (on), which sees more and takes about eight times as "
-      "long, "
-      "or its middle one alone (off); auto is off but in small scenes that name no clusters")
+      "Every image of a cluster is a view (on), which sees more and takes up to three times as "
+      "long, or its middle one alone (off); auto: on for clusters of 15 images in all or fewer")
     ->check(CLI::IsMember({ "auto", "on", "off" }))
     ->expected(0, 1)
     ->default_str("auto")
     ->group("Stereo");
+  this->Choice.AddOptions(command, "Stereo");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
@@ -52,10 +53,17 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetMinimumDepth(this->MinimumDepth);
   stereo->SetMaximumDepth(this->MaximumDepth);
   using Reader = vtkEdgeStereoReader;
-  stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::WHERE_NONE_WAS_CHOSEN
+  stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::IN_SMALL_SCENES
       : this->EveryImage == "off"                  ? Reader::NEVER
                                                    : Reader::ALWAYS);
+  vtkNew<vtkClusterProposal> clusters;
+  this->Choice.Apply(clusters);
+  stereo->SetClusterProposal(clusters);
   session.Run(stereo, "stereo");
+  if (!stereo->GetClusterSummary().empty())
+  {
+    session.Log("clusters: " + stereo->GetClusterSummary());
+  }
   vtkSmartPointer<vtkMultiBlockDataSet> features = stereo->GetOutput();
   session.Log("stereo: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
     std::to_string(features->GetNumberOfPoints()) + " features");

@@ -2,6 +2,8 @@
 #ifndef freespace_StereoStage_h
 #define freespace_StereoStage_h
 
+#include "Stages/ClusterChoice.h"
+
 #include <CLI/CLI.hpp>
 
 #include <vtkSmartPointer.h>
@@ -24,10 +26,13 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& scene) const;
 
+  const ClusterChoice& Clusters() const { return this->Choice; }
+
 private:
   double MinimumDepth = 0;
   double MaximumDepth = 0;
   std::string EveryImage = "auto"; // empty: on
+  ClusterChoice Choice;
 };
 
 }

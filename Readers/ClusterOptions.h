@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_ClusterOptions_h
+#define freespace_ClusterOptions_h
+
+#include "Scene/ClusterProposalOptions.h"
+
+class vtkClusterProposal;
+
+namespace freespace
+{
+
+/// The parameters that a vtkClusterProposal was given.
+ClusterProposalOptions ClusterOptionsOf(vtkClusterProposal* proposal);
+
+}
+
+#endif
