@@ -2,10 +2,10 @@
 #include "Disparity/DisparitySurface.h"
 
 #include "Common/Error.h"
+#include "Common/GroupedLists.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <type_traits>
 
 namespace freespace
@@ -30,21 +30,18 @@ void SortByFirst(std::vector<Key>& keys)
 {
   constexpr int digits = 3, bits = 11;
   constexpr std::uint32_t mask = (1u << bits) - 1;
-  std::vector<Key> sorted(keys.size());
   for (int digit = 0; digit < digits; ++digit)
   {
     const int shift = digit * bits;
-    std::vector<std::size_t> next(mask + 2, 0);
-    for (const Key& key : keys)
-    {
-      ++next[(key.first >> shift & mask) + 1];
-    }
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    for (const Key& key : keys)
-    {
-      sorted[next[key.first >> shift & mask]++] = key;
-    }
-    keys.swap(sorted);
+    const GroupedLists<Key> sorted(mask + 1,
+      [&](const auto& add)
+      {
+        for (const Key& key : keys)
+        {
+          add(key.first >> shift & mask, key);
+        }
+      });
+    keys = sorted.AllValues();
   }
 }
 

@@ -2,6 +2,7 @@
 #include "Disparity/FeatureSupport.h"
 
 #include "Common/Error.h"
+#include "Common/GroupedLists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,28 +22,19 @@ public:
     : CellSize(std::max({ cellSize, camera.width / 4096.0, camera.height / 4096.0 }))
     , Columns(static_cast<int>(camera.width / this->CellSize) + 1)
     , Rows(static_cast<int>(camera.height / this->CellSize) + 1)
-    , Begin(static_cast<std::size_t>(this->Columns) * this->Rows + 1, 0)
+    , Members(static_cast<std::size_t>(this->Columns) * this->Rows,
+        [&](const auto& add)
+        {
+          for (std::size_t i = 0; i < pixels.size(); ++i)
+          {
+            if (disparity[i] > 0)
+            {
+              const std::size_t row = this->Row(pixels[i].y());
+              add(row * this->Columns + this->Column(pixels[i].x()), i);
+            }
+          }
+        })
   {
-    std::vector<std::size_t> cell(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-    {
-      cell[i] = static_cast<std::size_t>(this->Row(pixels[i].y())) * this->Columns
-        + this->Column(pixels[i].x());
-      this->Begin[cell[i] + 1] += disparity[i] > 0;
-    }
-    for (std::size_t c = 1; c < this->Begin.size(); ++c)
-    {
-      this->Begin[c] += this->Begin[c - 1];
-    }
-    this->Members.resize(this->Begin.back());
-    std::vector<std::size_t> next(this->Begin.begin(), this->Begin.end() - 1);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-    {
-      if (disparity[i] > 0)
-      {
-        this->Members[next[cell[i]]++] = i;
-      }
-    }
   }
 
   template <typename Visitor>
@@ -52,9 +44,9 @@ public:
     for (int r = std::max(0, row - 1); r <= std::min(this->Rows - 1, row + 1); ++r)
     {
       const std::size_t first = static_cast<std::size_t>(r) * this->Columns;
-      const std::size_t begin = this->Begin[first + std::max(0, column - 1)];
-      const std::size_t end = this->Begin[first + std::min(this->Columns - 1, column + 1) + 1];
-      std::for_each(this->Members.begin() + begin, this->Members.begin() + end, visit);
+      const auto members = this->Members.Between(
+        first + std::max(0, column - 1), first + std::min(this->Columns - 1, column + 1) + 1);
+      std::for_each(members.begin(), members.end(), visit);
     }
   }
 
@@ -70,8 +62,7 @@ private:
   double CellSize;
   int Columns;
   int Rows;
-  std::vector<std::size_t> Begin; // per cell, and one past the last
-  std::vector<std::size_t> Members;
+  GroupedLists<std::size_t> Members; // features per cell
 };
 
 // 0 where the feature cannot be used: not finite, or not in front of the camera.
@@ -139,13 +130,15 @@ std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& opt
       support[i] = -1;
       continue;
     }
-    grid.VisitNeighborhood(view.imagePoints[i], [&](std::size_t j) {
-      const bool near
-        = (view.imagePoints[i] - view.imagePoints[j]).squaredNorm() <= radius * radius;
-      const bool agrees = std::abs(disparity[i] - disparity[j])
-        <= options.disparityTolerance * std::max(disparity[i], disparity[j]);
-      support[i] += j != i && near && agrees;
-    });
+    grid.VisitNeighborhood(view.imagePoints[i],
+      [&](std::size_t j)
+      {
+        const bool near =
+          (view.imagePoints[i] - view.imagePoints[j]).squaredNorm() <= radius * radius;
+        const bool agrees = std::abs(disparity[i] - disparity[j]) <=
+          options.disparityTolerance * std::max(disparity[i], disparity[j]);
+        support[i] += j != i && near && agrees;
+      });
   }
   return support;
 }

@@ -2,6 +2,8 @@
 #include "Disparity/OutlierRejection.h"
 
 #include "Common/Error.h"
+#include "Common/GroupedLists.h"
+#include "Common/Median.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Disparity/FeatureCloud.h"
 #include "Disparity/OverlappingViews.h"
@@ -11,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <utility>
 
 namespace freespace
 {
@@ -21,78 +23,56 @@ using Eigen::Vector3d;
 namespace
 {
 
-// In units of the noise: features that differ by less agree.
+// Thresholds in units of the noise: features that differ by less agree.
 constexpr double Agreement = 4;
 constexpr double LeastDisagreement = 10;
 
-// In units of what is typical of the view.
+// In units of the median over the view.
 constexpr double Untypical = 5;
 
-// Finds the points of a map that are nearest to one in the image, within two triangles.
+// Finds the points of a map that are nearest to a point in the image, among those that at most two
+// edges of the triangulation connect to it.
 class Neighborhood
 {
 public:
   explicit Neighborhood(const DisparityMap& map);
 
-  // The next of so many, nearest first; valid until the next call.
+  // The nearest points, at most `count`, nearest first; valid until the next call.
   const std::vector<int>& Nearest(int point, std::size_t count);
 
 private:
-  void Link();
   void Visit(int point, int center, std::size_t count);
 
   const DisparityMap& Map;
-  std::vector<int> Begin, Neighbors;         // per point, those that it shares a triangle with
-  std::vector<int> Stamp;                    // the last search that came by
+  GroupedLists<int> Neighbors;               // per point, those that it shares a triangle with
+  std::vector<int> Stamp;                    // per point, the last search that visited it
   std::vector<std::pair<double, int>> Found; // the nearest so far, by their squared distance
   std::vector<int> Result;
 };
 
 Neighborhood::Neighborhood(const DisparityMap& map)
   : Map(map)
-  , Begin(map.points.size() + 2, 0)
-  , Neighbors(6 * map.triangles.size())
+  , Neighbors(map.points.size(),
+      [&map](const auto& add)
+      {
+        for (const auto& triangle : map.triangles)
+        {
+          for (int i = 0; i < 3; ++i)
+          {
+            add(triangle[i], triangle[(i + 1) % 3]);
+            add(triangle[i], triangle[(i + 2) % 3]);
+          }
+        }
+      })
   , Stamp(map.points.size(), -1)
 {
-  for (const auto& triangle : map.triangles)
-  {
-    for (int corner : triangle)
+  // Each neighbour once: two triangles share most edges.
+  this->Neighbors.Filter(
+    [this](std::size_t point, int neighbor)
     {
-      this->Begin[corner + 2] += 2;
-    }
-  }
-  std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
-  for (const auto& triangle : map.triangles)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      int& next = this->Begin[triangle[i] + 1];
-      this->Neighbors[next++] = triangle[(i + 1) % 3];
-      this->Neighbors[next++] = triangle[(i + 2) % 3];
-    }
-  }
-  this->Link();
-}
-
-// Leaves each point's neighbours once: two triangles share most edges.
-void Neighborhood::Link()
-{
-  int kept = 0;
-  for (std::size_t point = 0; point < this->Stamp.size(); ++point)
-  {
-    const int begin = kept;
-    for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
-    {
-      const int neighbor = this->Neighbors[i];
-      if (this->Stamp[neighbor] != static_cast<int>(point))
-      {
-        this->Stamp[neighbor] = static_cast<int>(point);
-        this->Neighbors[kept++] = neighbor;
-      }
-    }
-    this->Begin[point] = begin;
-  }
-  this->Begin[this->Stamp.size()] = kept;
+      return std::exchange(this->Stamp[neighbor], static_cast<int>(point)) !=
+        static_cast<int>(point);
+    });
   std::fill(this->Stamp.begin(), this->Stamp.end(), -1);
 }
 
@@ -120,16 +100,15 @@ const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
 {
   this->Found.clear();
   this->Stamp[point] = point;
-  for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
+  for (const int neighbor : this->Neighbors[point])
   {
-    this->Visit(this->Neighbors[i], point, count);
+    this->Visit(neighbor, point, count);
   }
-  for (int i = this->Begin[point]; i < this->Begin[point + 1]; ++i)
+  for (const int neighbor : this->Neighbors[point])
   {
-    const int neighbor = this->Neighbors[i];
-    for (int j = this->Begin[neighbor]; j < this->Begin[neighbor + 1]; ++j)
+    for (const int next : this->Neighbors[neighbor])
     {
-      this->Visit(this->Neighbors[j], point, count);
+      this->Visit(next, point, count);
     }
   }
   this->Result.clear();
@@ -138,8 +117,9 @@ const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
   return this->Result;
 }
 
-// For each point the relative difference in disparity to the last of the neighbours that it needs for
-// its support. Infinite where there are not so many that a surface could join to it.
+// For each point the relative difference in disparity to the k-th most similar of its nearest
+// neighbours, k being the number that must agree. Infinite where fewer neighbours can lie on the
+// same surface.
 std::vector<double> LackOfSupport(
   const DisparityMap& map, const OutlierRejectionOptions& options, const CancellationFlag& stop)
 {
@@ -173,20 +153,13 @@ std::vector<double> LackOfSupport(
   return lack;
 }
 
-// Per point of a map whether enough of its neighbours agree with it. How well they must agree is
-// learned from the view: where features are sparse, the surface moves on from one to the next.
+// Per point of a map whether enough of its neighbours have a similar disparity. The threshold
+// depends on the view: where features are sparse, disparities differ more from one to the next.
 std::vector<char> SupportedPoints(
   const DisparityMap& map, const OutlierRejectionOptions& options, const CancellationFlag& stop)
 {
   const std::vector<double> lack = LackOfSupport(map, options, stop);
-  std::vector<double> sorted = lack;
-  double typical = 0;
-  if (!sorted.empty())
-  {
-    const auto middle = sorted.begin() + sorted.size() / 2;
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    typical = *middle;
-  }
+  const double typical = lack.empty() ? 0 : Median(lack);
   const double most = std::max(LeastDisagreement * options.noise, Untypical * typical);
   std::vector<char> supported(lack.size());
   std::transform(lack.begin(), lack.end(), supported.begin(),
@@ -194,7 +167,7 @@ std::vector<char> SupportedPoints(
   return supported;
 }
 
-// Whether too many of the other views see through a point.
+// Whether too many of the other views have a point in their free space.
 bool IsSeenThrough(const Vector3d& point, const std::vector<int>& others,
   const std::vector<std::unique_ptr<ViewFreespace>>& freespaces,
   const std::vector<DisparityMap>& maps, const OutlierRejectionOptions& options)
@@ -235,7 +208,7 @@ namespace
 
 using Flags = std::vector<std::vector<char>>; // per view, per point of its map
 
-// The points of the maps that passed so far, as the features of views.
+// The points of the maps that passed the tests so far, as the features of views.
 std::vector<View> PassedViews(const std::vector<DisparityMap>& maps, const Flags& passed)
 {
   std::vector<View> views(maps.size());
@@ -252,7 +225,8 @@ std::vector<View> PassedViews(const std::vector<DisparityMap>& maps, const Flags
   return views;
 }
 
-// The map has its view's features in their order, but not all of them.
+// From flags per point of the map to flags per feature of the view. The map has the view's features
+// in their order, but not all of them.
 std::vector<char> OfFeatures(
   const View& view, const DisparityMap& map, const std::vector<char>& passed)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Freespace/FreespaceQueries.h"
 
+#include "Common/Octant.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +16,18 @@ using Intervals = ViewFreespace::Intervals;
 namespace
 {
 
-/// Boxes are halved so often before the answer is no.
+/// The greatest depth of the recursion over octants.
 constexpr int DeepestHalving = 10;
 
-/// A place along a segment where so many more (or fewer) claim it as free.
+/// A place along a segment where a free interval of a view begins (1) or ends (-1).
 struct Change
 {
   double at;
   int by;
 };
 
-// The part of a segment within the closed hull, empty (begin > end) where it passes the hull by.
+// The part of a segment inside the closed hull; empty (begin > end) where the segment misses the
+// hull.
 std::pair<double, double> WithinHull(
   const FeatureHull& hull, const Vector3d& first, const Vector3d& last)
 {
@@ -44,7 +47,8 @@ std::pair<double, double> WithinHull(
   return { begin, end };
 }
 
-// Halves a box until its parts are decided. The part has to be free only where it meets the ball.
+// Splits a box into octants until they are decided. They have to be free only where they meet the
+// ball.
 class FreeBoxTest
 {
 public:
@@ -71,19 +75,16 @@ public:
     {
       return content == BoxContent::Free;
     }
-    // A point of the ball in matter decides at once.
+    // One point of the ball in matter is enough.
     Vector3d nearest = this->Center.cwiseMax(box.min()).cwiseMin(box.max());
     nearest = std::isinf(this->Radius) ? box.center() : nearest;
     if (depth == DeepestHalving || !this->Phi.IsFree(nearest, scope))
     {
       return false;
     }
-    const Vector3d half = 0.5 * box.sizes();
-    for (int part = 0; part < 8; ++part)
+    for (int octant = 0; octant < 8; ++octant)
     {
-      const Vector3d low =
-        box.min() + Vector3d(part & 1, part >> 1 & 1, part >> 2 & 1).cwiseProduct(half);
-      if (!this->IsFree(AlignedBox3d(low, low + half), scope, depth + 1))
+      if (!this->IsFree(Octant(box, octant), scope, depth + 1))
       {
         return false;
       }
@@ -112,7 +113,8 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
   }
   std::vector<Change> changes;
   Intervals intervals;
-  // Within the hull only the views that are undecided around the segment change their mind along it.
+  // Inside the hull only the views that are undecided around the segment begin or end to be free on
+  // it.
   AlignedBox3d way(first + enters * (last - first));
   way.extend(first + leaves * (last - first));
   const FieldScope scope = phi.ScopeAround(way);
@@ -129,7 +131,7 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
       changes.push_back({ end, -1 });
     }
   }
-  // Where one claim ends as another begins, the way is free: first all that begin.
+  // Where one interval ends and another begins, the segment is free: beginnings are sorted first.
   std::sort(changes.begin(), changes.end(),
     [](const Change& a, const Change& b) { return a.at < b.at || (a.at == b.at && a.by > b.by); });
   double blocked = enters;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Freespace/ViewOctree.h"
 
+#include "Common/Octant.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,38 +16,12 @@ using Eigen::Vector3d;
 namespace
 {
 
-// The nodes and what they list take some tens of megabytes at most.
+// Limits of the number of nodes and of their lists' length: some tens of megabytes at most.
 constexpr std::size_t MostNodes = 1 << 17;
 constexpr std::size_t MostUndecided = 1 << 23;
 
-// A view that is asked directly costs no more than another level.
+// Evaluating this number of views costs no more than another level.
 constexpr std::size_t FewViews = 1;
-
-// The part of a box in one of its eight corners.
-AlignedBox3d Octant(const AlignedBox3d& box, int corner)
-{
-  const Vector3d middle = box.center();
-  AlignedBox3d part;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const bool isUpper = corner >> axis & 1;
-    part.min()[axis] = isUpper ? middle[axis] : box.min()[axis];
-    part.max()[axis] = isUpper ? box.max()[axis] : middle[axis];
-  }
-  return part;
-}
-
-// The octant of a box that a point of it is in.
-int OctantOf(const AlignedBox3d& box, const Vector3d& point)
-{
-  const Vector3d middle = box.center();
-  int corner = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    corner |= (point[axis] > middle[axis] ? 1 : 0) << axis;
-  }
-  return corner;
-}
 
 }
 
@@ -56,7 +32,7 @@ ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Questi
 {
   std::iota(this->Undecided.begin(), this->Undecided.end(), 0);
   this->Nodes.push_back({ -1, 0, 0, views.size() });
-  // Level by level, so that where there is no room for more all places are told equally well.
+  // Breadth first, so that all places are resolved equally well when the limits are reached.
   std::vector<std::pair<std::size_t, AlignedBox3d>> level = { { 0, box } };
   double settled = 0.0;
   for (int depth = 0; depth < deepestLevel && !level.empty(); ++depth)

@@ -12,34 +12,34 @@
 namespace freespace
 {
 
-/// Which views have something to say about a place: an octree over a box, whose nodes keep the views
-/// for which a question is not decided in all of the node. Of a thousand views of a landscape a few are
-/// left around a point, however many there are.
+/// An octree over a box, whose nodes list the views for which a question is not decided in the
+/// whole node. Of a thousand views of a landscape, a few are undecided around a point.
 class ViewOctree
 {
 public:
   using Views = std::vector<std::unique_ptr<ViewFreespace>>;
 
-  /// What a view says about a box.
+  /// What is asked about a view and a box.
   using Question = std::function<BoxContent(const ViewFreespace&, const Eigen::AlignedBox3d&)>;
 
-  /// Nodes that enough views see free are not split, nor those on the deepest level. The progress is
-  /// the part of the box that has been settled; throws Aborted when it wants to stop.
+  /// Nodes that are free in `enough` views are not split, nor those on the deepest level. The
+  /// progress is the fraction of the box that is done; throws Aborted when the progress asks to
+  /// stop.
   ViewOctree(const Views& views, const Eigen::AlignedBox3d& box, const Question& question,
     int enough, int deepestLevel, const Progress& progress = {});
 
-  /// What is left of the views in a part of the box.
+  /// The views of a part of the box.
   struct Part
   {
-    int freeViews;    ///< that see all of the part free
-    const int* begin; ///< those that are not decided in it
+    int freeViews;    ///< number of views in which all of the part is free
+    const int* begin; ///< the views that are not decided in it
     const int* end;
   };
 
-  /// Of the smallest part that holds a point of the box.
+  /// The smallest part that contains a point of the box.
   Part At(const Eigen::Vector3d& point) const;
 
-  /// Of a part that holds another box, which is inside this one.
+  /// The smallest part that contains another box, which must be inside this one.
   Part Around(const Eigen::AlignedBox3d& box) const;
 
   bool Contains(const Eigen::AlignedBox3d& box) const { return this->Box.contains(box); }
