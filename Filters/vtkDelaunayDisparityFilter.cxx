@@ -3,7 +3,7 @@
 
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
-#include "Disparity/BackgroundContinuation.h"
+#include "Disparity/Background/BackgroundContinuation.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/FeatureCloud.h"
 #include "Disparity/LongTriangles.h"

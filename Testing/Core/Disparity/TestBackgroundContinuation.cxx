@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/BackgroundContinuation.h"
+#include "Disparity/Background/BackgroundContinuation.h"
 
 #include "Common/Error.h"
 #include "Disparity/DelaunayDisparity.h"

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/BackgroundContinuation.h"
+#include "Disparity/Background/BackgroundContinuation.h"
 
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
+#include "Disparity/Background/BridgedMap.h"
 #include "Disparity/OverlappingViews.h"
-#include "ViewFreespace/ViewFreespace.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -23,145 +22,26 @@ using Eigen::Vector3d;
 namespace
 {
 
-// In units of the noise: what is more is a jump, seen through, not a plane, sticks out.
-constexpr double LeastJump = 10;
+// Thresholds in units of the noise: to be seen through, to be a plane, to violate the minimum
+// disparity constraint.
 constexpr double SeeThrough = 4;
 constexpr double Flatness = 2;
 constexpr double SticksOut = 2;
 
-// Where a bridge is asked for, from its far side (0) to a near corner (1).
+// The place on a bridge that is tested, from its far side (0) to a near corner (1).
 constexpr double NearSide = 0.8;
 
-// A map with what is asked of it again and again.
-struct Scene
-{
-  Scene(const DisparityMap& map, const BackgroundContinuationOptions& options, const CancellationFlag& stop);
-
-  bool Spans(std::size_t triangle, const BackgroundContinuationOptions& options) const;
-
-  const DisparityMap& map;
-  ViewFreespace freespace;
-  std::vector<double> disparity;      // per point
-  std::vector<char> isBridge;         // per triangle
-  std::vector<int> soundBegin, sound; // around each point, the triangles that are no bridges
-};
-
-Scene::Scene(
-  const DisparityMap& given, const BackgroundContinuationOptions& options, const CancellationFlag& stop)
-  : map(given)
-  , freespace(given, stop)
-  , isBridge(given.triangles.size())
-  , soundBegin(given.points.size() + 2, 0)
-{
-  this->disparity.reserve(given.points.size());
-  for (const Vector3d& point : given.points)
-  {
-    this->disparity.push_back(1 / given.camera.Depth(point));
-  }
-  for (std::size_t t = 0; t < given.triangles.size(); ++t)
-  {
-    ThrowIfCancelled(stop);
-    this->isBridge[t] = this->Spans(t, options);
-    for (int corner : given.triangles[t])
-    {
-      this->soundBegin[corner + 2] += this->isBridge[t] ? 0 : 1;
-    }
-  }
-  std::partial_sum(this->soundBegin.begin(), this->soundBegin.end(), this->soundBegin.begin());
-  this->sound.resize(this->soundBegin.back());
-  for (std::size_t t = 0; t < given.triangles.size(); ++t)
-  {
-    for (int corner : given.triangles[t])
-    {
-      if (!this->isBridge[t])
-      {
-        this->sound[this->soundBegin[corner + 1]++] = static_cast<int>(t);
-      }
-    }
-  }
-}
-
-// Whether a triangle spans a jump: far deeper than noise, and seen almost from its edge.
-bool Scene::Spans(std::size_t triangle, const BackgroundContinuationOptions& options) const
-{
-  const auto [a, b, c] = this->map.triangles[triangle];
-  const auto [far, near] =
-    std::minmax({ this->disparity[a], this->disparity[b], this->disparity[c] });
-  const Vector3d& p = this->map.points[a];
-  const Vector3d& q = this->map.points[b];
-  const Vector3d& r = this->map.points[c];
-  const Vector3d normal = (q - p).cross(r - p);
-  const Vector3d sight = (p + q + r) / 3 - this->map.camera.Center();
-  return near > far * (1 + LeastJump * options.noise) &&
-    std::abs(normal.dot(sight)) <
-    std::cos(options.grazingAngle * M_PI / 180) * normal.norm() * sight.norm();
-}
-
-// The parts of the image that bridges touch. Most points are far from any bridge, and this tells so at
-// the cost of a projection.
-class BridgeMask
-{
-public:
-  explicit BridgeMask(const Scene& scene);
-
-  bool MayHold(const Vector2d& pixel) const
-  {
-    return this->Box.contains(pixel) && this->Touched[Index(this->Block(pixel))];
-  }
-
-private:
-  static constexpr int Blocks = 512; // along each side
-
-  Eigen::Array2i Block(const Vector2d& pixel) const
-  {
-    return ((pixel - this->Box.min()).array() * this->BlocksPerPixel).cast<int>().min(Blocks - 1);
-  }
-  static int Index(const Eigen::Array2i& block) { return block.y() * Blocks + block.x(); }
-
-  Eigen::AlignedBox2d Box;
-  Eigen::Array2d BlocksPerPixel;
-  std::vector<char> Touched;
-};
-
-BridgeMask::BridgeMask(const Scene& scene)
-  : Touched(Blocks * Blocks, 0)
-{
-  const DisparityMap& map = scene.map;
-  for (const auto& triangle : map.triangles)
-  {
-    for (int corner : triangle)
-    {
-      this->Box.extend(map.imagePoints[corner]);
-    }
-  }
-  this->BlocksPerPixel = Blocks / this->Box.sizes().array().max(1e-9);
-  for (std::size_t t = 0; t < map.triangles.size(); ++t)
-  {
-    if (scene.isBridge[t])
-    {
-      const auto [a, b, c] = map.triangles[t];
-      Eigen::AlignedBox2d box(map.imagePoints[a]);
-      box.extend(map.imagePoints[b]).extend(map.imagePoints[c]);
-      const Eigen::Array2i first = this->Block(box.min()), last = this->Block(box.max());
-      for (int y = first.y(); y <= last.y(); ++y)
-      {
-        std::fill(
-          &this->Touched[Index({ first.x(), y })], &this->Touched[Index({ last.x(), y })] + 1, 1);
-      }
-    }
-  }
-}
-
-// Works on one view, with all others around it.
+// Continues the background of one view, using the others.
 class BackgroundContinuer
 {
 public:
-  /// The scenes of the other views that see a part of what this one sees.
-  using Others = std::vector<const Scene*>;
+  /// The maps of the overlapping views.
+  using Others = std::vector<const BridgedMap*>;
 
-  BackgroundContinuer(const Scene& own, Others others, const BackgroundContinuationOptions& options)
+  BackgroundContinuer(
+    const BridgedMap& own, Others others, const BackgroundContinuationOptions& options)
     : Own(own)
-    , OtherScenes(std::move(others))
+    , OtherMaps(std::move(others))
     , Options(options)
     , Stamp(this->Own.map.points.size(), -1)
   {
@@ -173,7 +53,7 @@ private:
   struct SetBackBridge
   {
     std::size_t triangle;
-    std::array<double, 3> disparity; // at its corners, once it is set back
+    std::array<double, 3> disparity; // new ones at its corners
   };
 
   std::vector<SetBackBridge> RefutedBridges(const CancellationFlag& stop);
@@ -188,16 +68,16 @@ private:
   std::vector<int> FarPointsAround(int far, double radius);
   double SurfaceBehind(const Vector2d& pixel, double from, double to) const;
   std::optional<double> Crossing(
-    const Scene& other, const Vector2d& pixel, double from, double to) const;
+    const BridgedMap& other, const Vector2d& pixel, double from, double to) const;
   bool IsViolated(std::size_t triangle, const std::array<double, 3>& disparity,
     const std::vector<Vector3d>& points) const;
   double DistanceToNearSide(std::size_t triangle, const Vector2d& pixel) const;
 
-  const Scene& Own;
-  Others OtherScenes;
+  const BridgedMap& Own;
+  Others OtherMaps;
   const BackgroundContinuationOptions& Options;
-  std::unordered_map<std::uint64_t, std::optional<double>> Planes; // by their edge's ends
-  std::vector<int> Stamp; // of the last search that came by a point
+  std::unordered_map<std::uint64_t, std::optional<double>> Planes; // by the ends of their edge
+  std::vector<int> Stamp; // per point, the last search that visited it
   int Search = 0;
 };
 
@@ -209,9 +89,9 @@ double BackgroundContinuer::MiddleOfJump(std::size_t triangle) const
   return (far + near) / 2;
 }
 
-// Whether other views see through the bridge close to each of its near corners. Where they see
-// through it further off only, the edge that hides the background was missed: it lies somewhere
-// within the bridge, and between it and the near corners there is matter.
+// Whether other views see through the bridge close to each of its near corners. If they see through
+// it only at a distance, the occluding edge was missed: it is somewhere within the bridge, with
+// matter between it and the near corners.
 bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
 {
   const auto& corner = this->Own.map.triangles[triangle];
@@ -234,7 +114,7 @@ bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
 bool BackgroundContinuer::IsSeenThrough(const Vector3d& place) const
 {
   int views = 0;
-  for (const Scene* other : this->OtherScenes)
+  for (const BridgedMap* other : this->OtherMaps)
   {
     const ViewFreespace::Sample sample = other->freespace.At(place);
     const double depth = other->map.camera.Depth(place);
@@ -243,7 +123,7 @@ bool BackgroundContinuer::IsSeenThrough(const Vector3d& place) const
   return views >= this->Options.views;
 }
 
-// Points around a far one, over triangles that are no bridges.
+// Points around a far one, connected by triangles that are not bridges.
 std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
 {
   constexpr std::size_t enough = 200;
@@ -252,9 +132,9 @@ std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
   this->Stamp[far] = ++this->Search;
   for (std::size_t i = 0; i < found.size() && found.size() < enough; ++i)
   {
-    for (int s = this->Own.soundBegin[found[i]]; s < this->Own.soundBegin[found[i] + 1]; ++s)
+    for (const int triangle : this->Own.sound[found[i]])
     {
-      for (int corner : map.triangles[this->Own.sound[s]])
+      for (int corner : map.triangles[triangle])
       {
         if (this->Stamp[corner] != this->Search &&
           (map.imagePoints[corner] - map.imagePoints[far]).norm() <= radius)
@@ -268,8 +148,8 @@ std::vector<int> BackgroundContinuer::FarPointsAround(int far, double radius)
   return found;
 }
 
-// The disparity at a pixel of the plane through the points around a far one, as widely as the pixel
-// is away; none where they do not lie in a plane.
+// The disparity at a pixel of the plane fitted to the points around a far one, within the distance
+// of the pixel; none where they are not coplanar.
 std::optional<double> BackgroundContinuer::FitPlane(int far, const Vector2d& pixel)
 {
   constexpr double leastRadius = 8; // pixels
@@ -296,7 +176,7 @@ std::optional<double> BackgroundContinuer::FitPlane(int far, const Vector2d& pix
     : std::nullopt;
 }
 
-// The same at a near point's pixel. The two bridges beside an edge both ask for it.
+// The same at a near point's pixel, cached: the two bridges of an edge both need it.
 std::optional<double> BackgroundContinuer::PlaneAround(int far, int near)
 {
   const std::uint64_t edge =
@@ -309,10 +189,10 @@ std::optional<double> BackgroundContinuer::PlaneAround(int far, int near)
   return known->second;
 }
 
-// Where a ray of this view goes into the surface of another one, coming through its free space;
-// between two disparities. Only a surface counts: neither a bridge nor the edge of the map.
+// The disparity where a viewing ray of this view, between two disparities, passes from the free
+// space of another view into its surface. Bridges and the border of the map do not count.
 std::optional<double> BackgroundContinuer::Crossing(
-  const Scene& other, const Vector2d& pixel, double from, double to) const
+  const BridgedMap& other, const Vector2d& pixel, double from, double to) const
 {
   constexpr double beyond = 1e-5; // of the way between the two
   const Camera& camera = this->Own.map.camera;
@@ -334,20 +214,21 @@ std::optional<double> BackgroundContinuer::Crossing(
   return crossing;
 }
 
-// The first of the other views' surfaces behind the jump's middle; 0 where there is none.
+// The disparity of the nearest surface of the other views between two disparities; 0: there is
+// none.
 double BackgroundContinuer::SurfaceBehind(const Vector2d& pixel, double from, double to) const
 {
   std::optional<double> nearest;
-  for (const Scene* other : this->OtherScenes)
+  for (const BridgedMap* other : this->OtherMaps)
   {
-    // Only what is nearer than all before can matter.
+    // Only a nearer crossing than those found before is of interest.
     const auto crossing = this->Crossing(*other, pixel, from, nearest.value_or(to));
     nearest = crossing ? crossing : nearest;
   }
   return nearest.value_or(0);
 }
 
-// The background's disparity at a near corner of a bridge; none where it is not known.
+// The disparity of the background at a near corner of a bridge; none where it is not known.
 std::optional<double> BackgroundContinuer::SetBack(std::size_t triangle, int near)
 {
   const double middle = this->MiddleOfJump(triangle);
@@ -362,7 +243,7 @@ std::optional<double> BackgroundContinuer::SetBack(std::size_t triangle, int nea
     {
       if (const auto plane = this->PlaneAround(corner, near))
       {
-        sum += std::max(*plane, disparity); // never deeper than what is seen
+        sum += std::max(*plane, disparity); // never farther than what is observed
         ++planes;
       }
     }
@@ -401,7 +282,8 @@ double BackgroundContinuer::DistanceToNearSide(std::size_t triangle, const Vecto
   return distance;
 }
 
-// Whether a known point would stick out of the triangle with new disparities at its corners.
+// Whether a triangle with new disparities at its corners would violate the minimum disparity
+// constraint.
 bool BackgroundContinuer::IsViolated(std::size_t triangle, const std::array<double, 3>& disparity,
   const std::vector<Vector3d>& points) const
 {
@@ -424,7 +306,7 @@ bool BackgroundContinuer::IsViolated(std::size_t triangle, const std::array<doub
     });
 }
 
-// The bridges that are refuted and below which the background is known.
+// The refuted bridges whose background is known.
 std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBridges(
   const CancellationFlag& stop)
 {
@@ -457,7 +339,7 @@ std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBrid
   return refuted;
 }
 
-// All views' points that project into bridges, by triangle.
+// The features of all views that project into bridges, by triangle.
 std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
   const FeatureCloud& cloud, const CancellationFlag& stop) const
 {
@@ -483,7 +365,7 @@ DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const Canc
 {
   DisparityMap map = this->Own.map;
   std::vector<double> disparity = this->Own.disparity;
-  std::vector<std::vector<int>> setBack(map.points.size()); // behind each point
+  std::vector<std::vector<int>> setBack(map.points.size()); // background points of each point
   const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud, stop);
   for (const SetBackBridge& bridge : this->RefutedBridges(stop))
   {
@@ -500,7 +382,7 @@ DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const Canc
       {
         continue;
       }
-      // Bridges side by side share the corner where they agree on it.
+      // Adjacent bridges share a background point where their disparities agree.
       std::vector<int>& behind = setBack[corner];
       const auto shared = std::find_if(behind.begin(), behind.end(),
         [&](int other)
@@ -554,10 +436,10 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
   std::vector<double> work;
   std::transform(maps.begin(), maps.end(), std::back_inserter(work),
     [](const DisparityMap& map) { return static_cast<double>(map.triangles.size()); });
-  std::vector<std::unique_ptr<Scene>> scenes(maps.size());
+  std::vector<std::unique_ptr<BridgedMap>> bridged(maps.size());
   ParallelForWithProgress(work, parallelFor, progress.Part(0.0, 0.4),
     [&](std::size_t v, const CancellationFlag& stop)
-    { scenes[v] = std::make_unique<Scene>(maps[v], options, stop); });
+    { bridged[v] = std::make_unique<BridgedMap>(maps[v], options, stop); });
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   std::vector<DisparityMap> continued(maps.size());
   ParallelForWithProgress(work, parallelFor, progress.Part(0.4, 1.0),
@@ -566,10 +448,10 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
       BackgroundContinuer::Others others;
       for (int other : overlapping[v])
       {
-        others.push_back(scenes[other].get());
+        others.push_back(bridged[other].get());
       }
       continued[v] =
-        BackgroundContinuer(*scenes[v], std::move(others), options).Continue(cloud, stop);
+        BackgroundContinuer(*bridged[v], std::move(others), options).Continue(cloud, stop);
     });
   maps = std::move(continued);
 }
