@@ -14,17 +14,17 @@
 namespace freespace
 {
 
-/// How a surface is simplified.
+/// Options of the simplification.
 struct SimplifyOptions
 {
-  double bound = 0.0;    ///< no point of either surface is further from the other, in its unit; > 0
-  bool isSingle = false; ///< points are to be exact in single precision
+  double bound = 0.0;    ///< of the distance between the two surfaces, in their unit; > 0
+  bool isSingle = false; ///< whether points are rounded to single precision
 
   /// Throws Error when a field is out of its range.
   void Check() const;
 };
 
-/// Triangles with a label each.
+/// Triangles with one label each.
 struct LabelledSurface
 {
   std::vector<Eigen::Vector3d> points;
@@ -32,20 +32,20 @@ struct LabelledSurface
   std::vector<std::int64_t> labels; ///< per triangle; may be empty
 };
 
-/// Leaves out vertices where the surface is flat, by collapsing edges (CGAL's surface mesh
-/// simplification, with Lindstrom's and Turk's cost and placement).
+/// Removes vertices where the surface is flat, by edge collapses (CGAL's surface mesh
+/// simplification, with the cost and placement of Lindstrom and Turk).
 ///
-/// The library bounds no distance, so each collapse is held against the bound: the triangles that go
-/// and those that come in their place have the same border, and both are over the plane across their
-/// mean normal like a function; the greatest difference of the two functions, which is at a vertex or
-/// where two edges cross, bounds the distance both ways. These distances add up over what collapses at
-/// a place; the sum stays within the bound.
+/// The library does not bound the distance, so each collapse is checked: the removed triangles and
+/// those that replace them have the same border, and both are height functions over a common plane;
+/// the greatest difference of the two functions, which is at a vertex or where two edges cross,
+/// bounds the distance in both directions. These distances add up over repeated collapses; the sum
+/// stays within the bound.
 ///
-/// Borders, and edges between triangles with different labels, stay as they are. The surface keeps its
-/// topology, and meets itself nowhere if it did not before: wherever it would, it is left as it was.
+/// Borders, and edges between triangles with different labels, are kept. The surface keeps its
+/// topology, and gets no self-intersections if it had none: where it would, it is left as it was.
 /// The same for any number of threads.
 ///
-/// Throws Error when the triangles are not a 2-manifold, Aborted when the progress wants to stop.
+/// Throws Error when the triangles are not a 2-manifold, Aborted when the progress asks to stop.
 LabelledSurface SimplifySurface(const LabelledSurface& surface, const SimplifyOptions& options,
   const Progress& progress = {}, const ParallelFor& parallelFor = SerialFor);
 
