@@ -4,7 +4,6 @@
 #include "Contour/Lattice/MarchingCubesCases.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace freespace
 {
@@ -12,111 +11,10 @@ namespace freespace
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-ContourLattice::ContourLattice(const AlignedBox3d& bounds, int cellsAlongLongestSide)
-{
-  const Vector3d size = bounds.sizes();
-  this->spacing = size.maxCoeff() / (cellsAlongLongestSide - 1);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double across = size[axis] / this->spacing;
-    this->cells[axis] = static_cast<int>(std::ceil(across - 1e-9)) + 1;
-    this->origin[axis] = bounds.center()[axis] - 0.5 * this->spacing * this->cells[axis];
-  }
-}
-
-int CellRange::Longest() const
-{
-  return std::max({ high[0] - low[0], high[1] - low[1], high[2] - low[2] });
-}
-
-AlignedBox3d CellRange::Box(const ContourLattice& lattice) const
-{
-  return AlignedBox3d(
-    lattice.Point(low[0], low[1], low[2]), lattice.Point(high[0], high[1], high[2]));
-}
-
-std::vector<CellRange> CellRange::Parts(int step) const
-{
-  LatticeIndex middle;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int steps = (this->high[axis] - this->low[axis] + step - 1) / step;
-    middle[axis] = std::min(this->low[axis] + (steps + 1) / 2 * step, this->high[axis]);
-  }
-  std::vector<CellRange> parts;
-  for (int part = 0; part < 8; ++part)
-  {
-    CellRange range;
-    bool empty = false;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const bool upper = (part >> axis & 1) != 0;
-      range.low[axis] = upper ? middle[axis] : this->low[axis];
-      range.high[axis] = upper ? this->high[axis] : middle[axis];
-      empty = empty || range.low[axis] >= range.high[axis];
-    }
-    if (!empty)
-    {
-      parts.push_back(range);
-    }
-  }
-  return parts;
-}
-
-BoxContent BoundedField::Classify(
-  const AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const
-{
-  if (!this->Bounds.intersects(box))
-  {
-    return BoxContent::Free;
-  }
-  const BoxContent content = this->Field.Classify(box, parent, scope);
-  return content == BoxContent::Matter && !this->Bounds.contains(box) ? BoxContent::Mixed : content;
-}
-
-bool BoundedField::Crossing(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
-  double& place, SurfaceLabel& label) const
-{
-  if (this->Bounds.contains(free))
-  {
-    return this->Field.Crossing(matter, free, scope, place, label);
-  }
-  // Up to where the segment leaves the bounds, if the field does not make it free before.
-  double exit = 1.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double step = free[axis] - matter[axis];
-    const double side = step > 0 ? this->Bounds.max()[axis] : this->Bounds.min()[axis];
-    exit = step == 0.0 ? exit : std::min(exit, (side - matter[axis]) / step);
-  }
-  const Vector3d border = matter + exit * (free - matter);
-  if (this->Field.IsFree(border, scope))
-  {
-    const bool isKnown = this->Field.Crossing(matter, border, scope, place, label);
-    place *= exit;
-    return isKnown;
-  }
-  place = exit;
-  label = { -1, SurfaceKind::Hull, (free - matter).normalized() };
-  return true;
-}
-
-SurfaceLabel BoundedField::Label(
-  const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
-{
-  if (this->Bounds.contains(free))
-  {
-    return this->Field.Label(free, matter, scope);
-  }
-  SurfaceLabel label;
-  label.normal = (free - matter).normalized();
-  return label;
-}
-
 namespace
 {
 
-/// Boxes of so few cells are not classified any further.
+/// Boxes with at most this number of cells along a side are not classified any further.
 constexpr int LeafSize = 2;
 
 enum PointState : unsigned char
@@ -128,7 +26,7 @@ enum PointState : unsigned char
 
 }
 
-/// Asks the field for the lattice points of a block.
+/// Samples the field at the lattice points of a block.
 class BlockSampler
 {
 public:
@@ -148,12 +46,7 @@ public:
     this->State.fill(Unknown);
   }
 
-  void Run(const FieldScope& scope)
-  {
-    this->Ask({ { 0, 0, 0 }, this->Cells }, scope, true);
-    this->FindVertices(scope);
-    this->FindCells();
-  }
+  void Run(const FieldScope& scope);
 
 private:
   static constexpr int Points = ContourBlock::Size + 1;
@@ -180,116 +73,12 @@ private:
     }
   }
 
-  /// Finds the state of all points of a range of cells, its upper faces included.
-  void Ask(const CellRange& range, const FieldScope& parent, bool isMixed)
-  {
-    const LatticeIndex end = { range.high[0] + 1, range.high[1] + 1, range.high[2] + 1 };
-    FieldScope inner;
-    if (!isMixed)
-    {
-      const AlignedBox3d box(this->Position(range.low[0], range.low[1], range.low[2]),
-        this->Position(range.high[0], range.high[1], range.high[2]));
-      const BoxContent content = this->Field.Classify(box, parent, inner);
-      if (content != BoxContent::Mixed)
-      {
-        const PointState state = content == BoxContent::Free ? IsFree : IsMatter;
-        ForEach(range.low, end, [&](int i, int j, int k) { this->StateAt(i, j, k) = state; });
-        return;
-      }
-    }
-    const FieldScope& scope = isMixed ? parent : inner;
-    if (range.Longest() > LeafSize)
-    {
-      for (const CellRange& part : range.Parts(1))
-      {
-        this->Ask(part, scope, false);
-      }
-      return;
-    }
-    ForEach(range.low, end,
-      [&](int i, int j, int k)
-      {
-        PointState& state = this->StateAt(i, j, k);
-        if (state == Unknown)
-        {
-          state = this->Field.IsFree(this->Position(i, j, k), scope) ? IsFree : IsMatter;
-        }
-      });
-  }
-
-  void FindVertices(const FieldScope& scope)
-  {
-    ForEach({ 0, 0, 0 }, this->Cells,
-      [&](int i, int j, int k)
-      {
-        const PointState state = this->StateAt(i, j, k);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          if (this->StateAt(i + (axis == 0), j + (axis == 1), k + (axis == 2)) != state)
-          {
-            this->Block.keys.push_back(ContourBlock::Key({ i, j, k }, axis));
-            this->AddVertex(this->Position(i, j, k), axis, state == IsFree, scope);
-          }
-        }
-      });
-  }
-
-  /// The vertex on the lattice edge from a point up an axis.
-  void AddVertex(const Vector3d& begin, int axis, bool beginIsFree, const FieldScope& scope)
-  {
-    const Vector3d end = begin + this->Lattice.spacing * Vector3d::Unit(axis);
-    const Vector3d& matter = beginIsFree ? end : begin;
-    const Vector3d& free = beginIsFree ? begin : end;
-    double place;
-    SurfaceLabel label;
-    if (!this->Options.exact || !this->Field.Crossing(matter, free, scope, place, label))
-    {
-      place = this->Bisect(matter, free, scope, label);
-    }
-    const double clear = this->Options.clearance;
-    place = std::clamp(beginIsFree ? 1.0 - place : place, clear, 1.0 - clear);
-    this->Block.places.push_back(static_cast<float>(place));
-    this->Block.Labels.push_back(
-      static_cast<std::int16_t>(label.view * 4 + static_cast<int>(label.kind)));
-    if (this->Options.keepNormals)
-    {
-      this->Block.normals.push_back(label.normal.cast<float>());
-    }
-  }
-
-  /// The bisection of section 2.2, from matter to free.
+  void Ask(const CellRange& range, const FieldScope& parent, bool isMixed);
+  void FindVertices(const FieldScope& scope);
+  void AddVertex(const Vector3d& begin, int axis, bool beginIsFree, const FieldScope& scope);
   double Bisect(const Vector3d& matter, const Vector3d& free, const FieldScope& scope,
-    SurfaceLabel& label) const
-  {
-    const auto at = [&](double s) { return Vector3d(matter + s * (free - matter)); };
-    double low = 0.0, high = 1.0;
-    while (high - low > this->Options.tolerance)
-    {
-      const double middle = 0.5 * (low + high);
-      (this->Field.IsFree(at(middle), scope) ? high : low) = middle;
-    }
-    label = this->Field.Label(at(high), at(low), scope);
-    return 0.5 * (low + high);
-  }
-
-  void FindCells()
-  {
-    ForEach({ 0, 0, 0 }, this->Cells,
-      [&](int i, int j, int k)
-      {
-        int matter = 0;
-        for (int c = 0; c < 8; ++c)
-        {
-          const PointState state = this->StateAt(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
-          matter |= (state == IsMatter) << c;
-        }
-        if (matter != 0 && matter != 255)
-        {
-          this->Block.cells.push_back(ContourBlock::CellKey({ i, j, k }));
-          this->Block.cases.push_back(static_cast<std::uint8_t>(matter));
-        }
-      });
-  }
+    SurfaceLabel& label) const;
+  void FindCells();
 
   const BoundedField& Field;
   const ContourLattice& Lattice;
@@ -299,6 +88,125 @@ private:
   ContourBlock& Block;
   std::array<PointState, Points * Points * Points> State;
 };
+
+void BlockSampler::Run(const FieldScope& scope)
+{
+  this->Ask({ { 0, 0, 0 }, this->Cells }, scope, true);
+  this->FindVertices(scope);
+  this->FindCells();
+}
+
+// Finds the states of all points of a range of cells, upper faces included.
+void BlockSampler::Ask(const CellRange& range, const FieldScope& parent, bool isMixed)
+{
+  const LatticeIndex end = { range.high[0] + 1, range.high[1] + 1, range.high[2] + 1 };
+  FieldScope inner;
+  if (!isMixed)
+  {
+    const AlignedBox3d box(this->Position(range.low[0], range.low[1], range.low[2]),
+      this->Position(range.high[0], range.high[1], range.high[2]));
+    const BoxContent content = this->Field.Classify(box, parent, inner);
+    if (content != BoxContent::Mixed)
+    {
+      const PointState state = content == BoxContent::Free ? IsFree : IsMatter;
+      ForEach(range.low, end, [&](int i, int j, int k) { this->StateAt(i, j, k) = state; });
+      return;
+    }
+  }
+  const FieldScope& scope = isMixed ? parent : inner;
+  if (range.Longest() > LeafSize)
+  {
+    for (const CellRange& part : range.Parts(1))
+    {
+      this->Ask(part, scope, false);
+    }
+    return;
+  }
+  ForEach(range.low, end,
+    [&](int i, int j, int k)
+    {
+      PointState& state = this->StateAt(i, j, k);
+      if (state == Unknown)
+      {
+        state = this->Field.IsFree(this->Position(i, j, k), scope) ? IsFree : IsMatter;
+      }
+    });
+}
+
+void BlockSampler::FindVertices(const FieldScope& scope)
+{
+  ForEach({ 0, 0, 0 }, this->Cells,
+    [&](int i, int j, int k)
+    {
+      const PointState state = this->StateAt(i, j, k);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (this->StateAt(i + (axis == 0), j + (axis == 1), k + (axis == 2)) != state)
+        {
+          this->Block.keys.push_back(ContourBlock::Key({ i, j, k }, axis));
+          this->AddVertex(this->Position(i, j, k), axis, state == IsFree, scope);
+        }
+      }
+    });
+}
+
+// Adds the vertex on the lattice edge from a point along an axis.
+void BlockSampler::AddVertex(
+  const Vector3d& begin, int axis, bool beginIsFree, const FieldScope& scope)
+{
+  const Vector3d end = begin + this->Lattice.spacing * Vector3d::Unit(axis);
+  const Vector3d& matter = beginIsFree ? end : begin;
+  const Vector3d& free = beginIsFree ? begin : end;
+  double place;
+  SurfaceLabel label;
+  if (!this->Options.exact || !this->Field.Crossing(matter, free, scope, place, label))
+  {
+    place = this->Bisect(matter, free, scope, label);
+  }
+  const double clear = this->Options.clearance;
+  place = std::clamp(beginIsFree ? 1.0 - place : place, clear, 1.0 - clear);
+  this->Block.places.push_back(static_cast<float>(place));
+  this->Block.Labels.push_back(
+    static_cast<std::int16_t>(label.view * 4 + static_cast<int>(label.kind)));
+  if (this->Options.keepNormals)
+  {
+    this->Block.normals.push_back(label.normal.cast<float>());
+  }
+}
+
+// The bisection of section 2.2, from matter to free.
+double BlockSampler::Bisect(
+  const Vector3d& matter, const Vector3d& free, const FieldScope& scope, SurfaceLabel& label) const
+{
+  const auto at = [&](double s) { return Vector3d(matter + s * (free - matter)); };
+  double low = 0.0, high = 1.0;
+  while (high - low > this->Options.tolerance)
+  {
+    const double middle = 0.5 * (low + high);
+    (this->Field.IsFree(at(middle), scope) ? high : low) = middle;
+  }
+  label = this->Field.Label(at(high), at(low), scope);
+  return 0.5 * (low + high);
+}
+
+void BlockSampler::FindCells()
+{
+  ForEach({ 0, 0, 0 }, this->Cells,
+    [&](int i, int j, int k)
+    {
+      int matter = 0;
+      for (int c = 0; c < 8; ++c)
+      {
+        const PointState state = this->StateAt(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1));
+        matter |= (state == IsMatter) << c;
+      }
+      if (matter != 0 && matter != 255)
+      {
+        this->Block.cells.push_back(ContourBlock::CellKey({ i, j, k }));
+        this->Block.cases.push_back(static_cast<std::uint8_t>(matter));
+      }
+    });
+}
 
 ContourBlock::ContourBlock(const BoundedField& field, const ContourLattice& lattice,
   const CrossingOptions& options, const CellRange& range, const FieldScope& scope)

@@ -58,6 +58,15 @@ AlignedBox3d BlockMesh::CellBox(const LatticeIndex& cell, double rim) const
   return { low - Vector3d::Constant(room), low + Vector3d::Constant(this->lattice.spacing + room) };
 }
 
+FieldScope BlockMesh::ScopeAround(const BoundedField& field, const ContourBlock& block) const
+{
+  const double size = ContourBlock::Size;
+  const Vector3d low = this->CellCorner(block, { -2, -2, -2 });
+  const AlignedBox3d box(low, low + Vector3d::Constant((size + 4) * this->lattice.spacing));
+  FieldScope scope;
+  return field.Classify(box, field.Root(), scope) == BoxContent::Mixed ? scope : field.Root();
+}
+
 const BlockPlace* BlockMesh::PlaceOf(LatticeIndex& index) const
 {
   LatticeIndex at;

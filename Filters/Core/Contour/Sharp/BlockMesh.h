@@ -6,6 +6,7 @@
 #include "Common/Progress.h"
 #include "Contour/Lattice/ContourOctree.h"
 #include "Contour/Lattice/MarchingCubesCases.h"
+#include "Contour/Sharp/BlockPlace.h"
 #include "Contour/Sharp/SharpFeature.h"
 
 #include <unordered_map>
@@ -13,84 +14,8 @@
 namespace freespace
 {
 
-/// Which cell a sharp vertex lies in: its own, or one beside it, where triangles may be in the way.
-enum class Reach
-{
-  Own,
-  Empty,
-  Surface
-};
-
-/// A vertex of a cell, about which the cell's triangles are a fan.
-struct SharpVertex
-{
-  std::size_t cell; ///< place in the block's cells
-  Eigen::Vector3d position;
-  Eigen::Vector3d fallback; ///< within the cell
-  Eigen::Vector3d edge;     ///< of a corner: where it would be otherwise
-  Reach edgeReach;
-  bool isCorner;
-  bool isBorrowed; ///< from a plane of another cell
-  Reach reach;
-};
-
-/// A sharp feature that the planes of a cell show in another one.
-struct SharpOffer
-{
-  LatticeIndex cell; ///< of the lattice; in a block's own list, of the block
-  SharpFeature feature;
-};
-
-/// A cell's faces on which two corners in matter, opposite to each other, hang together.
-struct JoinedFaces
-{
-  std::size_t cell; ///< place in the block's cells
-  int faces;        ///< one bit for each
-};
-
-/// A face of a cell, over which its sharp vertex is joined to the next cell's, though not through it.
-struct Bridge
-{
-  std::size_t cell; ///< place in the block's cells
-  int face;
-};
-
-/// Where a block's vertices and triangles come in the mesh. The vertices are those of the block, then
-/// the sharp ones.
-struct BlockPlace
-{
-  const ContourBlock* block;
-  bool isOwn;
-  std::int32_t firstVertex;
-  std::size_t firstTriangle;
-  std::vector<JoinedFaces> joined; ///< in the order of their cells
-  std::vector<SharpVertex> sharp;  ///< in the order of their cells
-  std::vector<Bridge> bridges;
-  std::vector<SharpOffer> offers;   ///< to any block's cells
-  std::vector<SharpOffer> received; ///< to the block's cells
-  std::vector<std::int32_t> vertex; ///< of another piece's block: place in the mesh, or -1
-
-  std::size_t NumberOfVertices() const { return this->block->keys.size() + this->sharp.size(); }
-};
-
-/// A vertex: of which block, and its place in it.
-struct BlockVertex
-{
-  BlockPlace* owner;
-  std::size_t vertex;
-};
-
-/// A face of a cell with a sharp vertex, beyond which there is another one.
-struct SharpFace
-{
-  BlockVertex other;
-  bool isUpper; ///< of the cell
-  int axis;
-  Eigen::Vector3d low; ///< the face's first corner
-};
-
-/// The blocks of a contour and what they share: which stands where, which vertex lies on a lattice edge
-/// and which cells' sharp vertices are joined.
+/// The blocks of a contour as one mesh: finds blocks, cells, and the vertices on lattice edges,
+/// also across blocks, and decides which cells' sharp vertices are joined.
 class BlockMesh
 {
 public:
@@ -99,30 +24,30 @@ public:
   {
   }
 
-  /// Takes the blocks of all regions, which stay where they are.
+  /// Adds the blocks of all regions, by reference.
   void Add(const std::vector<Region>& regions);
 
-  /// Sharp vertices keep so far from the sides of their cells, and new edges half as far from those of
-  /// the faces, in cells.
+  /// The least distance of sharp vertices to the sides of their cells, and twice that of new edges
+  /// to the sides of the faces, in cells.
   static constexpr double SharpClearance = 0.01;
 
-  /// The field must show an edge or corner so close to where the planes say that it is, in cells.
+  /// The distance within which the field must confirm an edge or corner of the planes, in cells.
   static constexpr double FeatureReach = 0.05;
 
-  /// A sharp vertex may be so far off the surface, in cells: roughness that the smoothed normals leave
-  /// out, but no other surface.
+  /// The greatest distance of a sharp vertex to the surface, in cells: allows for roughness that
+  /// the smoothed normals leave out, but not for another surface.
   static constexpr double VertexSlack = 0.5;
 
-  /// No vertex.
+  /// The index of no vertex.
   static constexpr std::size_t Missing = static_cast<std::size_t>(-1);
 
-  /// Regions of one layer: where they, and their blocks, begin.
+  /// The first region of a layer, and the first place of its blocks.
   struct Layer
   {
     std::size_t region, place;
   };
 
-  /// Calls work(place) for all places, in parallel, with looks at the progress in between.
+  /// Calls work(place) for all places, in parallel, and reports the progress in between.
   template <typename Work>
   void ForEachPlace(const Progress& progress, const ParallelFor& parallelFor, Work&& work,
     const std::function<void(std::size_t layer)>& afterLayer = {}) const
@@ -157,7 +82,7 @@ public:
     return { cell % size, cell / size % size, cell / (size * size) };
   }
 
-  /// Where an edge of a cell begins.
+  /// The first point of an edge of a cell.
   static LatticeIndex FirstPoint(const LatticeIndex& cell, int edge)
   {
     const int begin = MarchingCubesCases::Begin(edge);
@@ -170,7 +95,7 @@ public:
     return { cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1 };
   }
 
-  /// The faces of the c-th cell over which its matter hangs together, a bit for each.
+  /// The faces of the c-th cell across which matter is joined, a bit for each.
   static int JoinedFacesOf(const BlockPlace& place, std::size_t c)
   {
     const auto joined = std::lower_bound(place.joined.begin(), place.joined.end(), c,
@@ -178,13 +103,14 @@ public:
     return joined != place.joined.end() && joined->cell == c ? joined->faces : 0;
   }
 
-  /// The lines in which the surface crosses the faces of the c-th cell of a block.
-  static const std::vector<MarchingCubesCases::Loop>& LoopsOf(const BlockPlace& place, std::size_t c)
+  /// The loops of the surface on the faces of the c-th cell of a block.
+  static const std::vector<MarchingCubesCases::Loop>& LoopsOf(
+    const BlockPlace& place, std::size_t c)
   {
     return MarchingCubesCases::Get().Loops(place.block->cases[c], JoinedFacesOf(place, c));
   }
 
-  /// The vertex on the lattice edge from a point of a block.
+  /// The vertex on the lattice edge that begins at a point of a block.
   static std::size_t VertexAt(const ContourBlock& block, const LatticeIndex& point, int axis)
   {
     const auto& keys = block.keys;
@@ -193,7 +119,7 @@ public:
                                                                        : Missing;
   }
 
-  /// The sharp vertex that a vertex is.
+  /// The data of a sharp vertex.
   static SharpVertex& SharpOf(const BlockVertex& vertex)
   {
     return vertex.owner->sharp[vertex.vertex - vertex.owner->block->keys.size()];
@@ -208,8 +134,11 @@ public:
   /// A cell of the lattice with (positive) or without (negative) a rim, in cells.
   Eigen::AlignedBox3d CellBox(const LatticeIndex& cell, double rim) const;
 
-  /// The block that a cell or point of the lattice belongs to; null: the surface is not near. Makes
-  /// the index one in the block.
+  /// The scope of the field where the sharp vertices of a block can lie.
+  FieldScope ScopeAround(const BoundedField& field, const ContourBlock& block) const;
+
+  /// The block that a cell or point of the lattice belongs to; null: the surface is not near.
+  /// Changes the index to one relative to the block.
   const BlockPlace* PlaceOf(LatticeIndex& index) const;
 
   /// The block at a place in units of blocks; null: the surface is not near.
@@ -221,7 +150,7 @@ public:
   /// The case of a cell of the lattice; 0 where the surface does not pass.
   int CaseOf(const LatticeIndex& cell) const;
 
-  /// The blocks above a block, as far as they were looked for.
+  /// The blocks above a block; null where not looked up yet.
   using Neighbors = std::array<BlockPlace*, 8>;
 
   /// The vertex on a cube edge of a cell.
@@ -235,7 +164,8 @@ public:
   /// The plane of the surface at a vertex that lies on a lattice edge.
   SurfacePlane PlaneAt(const BlockVertex& vertex) const;
 
-  /// The planes of the surface in a cell of the lattice. False when they are not of one sheet.
+  /// Adds the tangent planes at the crossings of a cell of the lattice. False when the cell has
+  /// more than one sheet.
   bool CollectPlanes(const LatticeIndex& cell, std::vector<SurfacePlane>& planes) const;
 
   /// The sharp vertex of a cell of the block or next to it.
@@ -246,19 +176,20 @@ public:
   bool FindSharpFace(
     const BlockPlace& place, std::size_t sharp, int face, SharpFace& sharpFace) const;
 
-  /// Whether an edge between two sharp vertices passes through the face between their cells, off its
-  /// border: then the new triangles stay within the two cells, where nothing else is on that face.
+  /// Whether an edge between two sharp vertices passes through the face between their cells, off
+  /// its border: then the new triangles stay within the two cells, where nothing else is on that
+  /// face.
   bool IsThroughFace(
     const Eigen::Vector3d& own, const Eigen::Vector3d& other, const SharpFace& face) const;
 
   /// Two triangles meet on the face between two cells with sharp vertices s and t: (s, u, v) and
-  /// (t, v, u). To join s and t by an edge, instead of the one that parts them, they become (s, u, t)
-  /// and (t, v, s): the last corner of each changes. Both cells decide alike.
+  /// (t, v, u). To join s and t by an edge (an edge flip), they become (s, u, t) and (t, v, s): the
+  /// last corner of each changes. Both cells get the same result.
   void JoinSharp(const BlockPlace& place, std::size_t sharp, int face, BlockVertex& last) const;
 
-  /// Calls visit(triangle, its three corners, whether it is in the fan about a sharp vertex, the face
-  /// that its two last corners share) for all triangles of a block. In a fan, the sharp vertex is the
-  /// first corner. False when a vertex is not there.
+  /// Calls visit(triangle, its three corners, whether it is in the fan around a sharp vertex, the
+  /// face of its two last corners) for all triangles of a block. In a fan, the sharp vertex is the
+  /// first corner. False when a vertex is missing.
   template <typename Visit>
   bool ForEachTriangle(const BlockPlace& place, Visit&& visit) const
   {
@@ -302,12 +233,12 @@ public:
 
   const ContourLattice& lattice;
   std::vector<BlockPlace> places;
-  std::vector<Layer> layers; ///< and one more, the end
+  std::vector<Layer> layers; ///< and one more, for the end
 
 private:
-  static constexpr std::size_t PlacesAtATime = 2048; ///< between two looks at the progress
+  static constexpr std::size_t PlacesAtATime = 2048; ///< between two reports of the progress
 
-  std::unordered_map<std::uint64_t, std::size_t> Index; ///< of places, by where their blocks are
+  std::unordered_map<std::uint64_t, std::size_t> Index; ///< of places, by their blocks' indices
 };
 
 }

@@ -7,10 +7,11 @@
 namespace freespace
 {
 
-/// Gives cells of a contour that sharp edges and corners pass a vertex there: where the planes at
-/// the cell's crossings meet, or at an edge that only its neighbours' planes show. Some lie beyond
-/// their cells, and their triangles may meet others; see JoinSharpVertices. Two normals in a cell
-/// that differ by the sharp angle (degrees) make it sharp.
+/// Adds a vertex to each cell of a contour that contains a sharp edge or corner: where the tangent
+/// planes at the cell's crossings intersect, or on an edge that only the planes of adjacent cells
+/// show. Some vertices lie outside of their cells, and their triangles may intersect others; see
+/// JoinSharpVertices. A cell is sharp when two of its normals differ by the sharp angle (degrees)
+/// or more.
 ///
 /// Kobbelt, Botsch, Schwanecke, Seidel, "Feature sensitive surface extraction from volume data",
 /// SIGGRAPH 2001.

@@ -7,10 +7,11 @@
 namespace freespace
 {
 
-/// Decides which sharp vertices stay beyond their cells and which are joined by an edge that does not
-/// pass through the face between their cells, so that the surface never meets itself. Wherever two
-/// triangles would meet, the choice of the greater rank gives way; each depends on its surroundings
-/// alone. isSingle: points will be written in single precision.
+/// Decides which sharp vertices stay outside of their cells and which are joined by an edge that
+/// does not pass through the face between their cells, so that the surface has no
+/// self-intersections. Where two triangles would intersect, the choice of the greater rank is
+/// dropped; each choice depends only on its surroundings. isSingle: points will be written in
+/// single precision.
 void JoinSharpVertices(
   bool isSingle, BlockMesh& blocks, const Progress& progress, const ParallelFor& parallelFor);
 
