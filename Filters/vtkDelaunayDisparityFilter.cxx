@@ -21,6 +21,25 @@
 
 vtkStandardNewMacro(vtkDelaunayDisparityFilter);
 
+vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
+{
+  const freespace::DelaunayDisparityOptions disparity;
+  this->MinimumDisparity = disparity.minimumDisparity;
+  this->Tolerance = disparity.tolerance;
+  this->KeepEdges = disparity.keepEdges;
+  const freespace::BackgroundContinuationOptions background;
+  this->ContinueBackground = true;
+  this->GrazingAngle = background.grazingAngle;
+  this->RefutingViews = background.views;
+  const freespace::OutlierRejectionOptions outliers;
+  this->SupportingNeighbors = outliers.neighbors;
+  this->SeeThroughViews = outliers.seeThroughViews;
+  this->ViolatingFeatures = outliers.violatingFeatures;
+  const freespace::LongTrianglesOptions trim;
+  this->LongestEdge = trim.longestEdge;
+  this->GreatestDepthRatio = trim.greatestDepth;
+}
+
 int vtkDelaunayDisparityFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

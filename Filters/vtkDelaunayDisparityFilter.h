@@ -158,22 +158,23 @@ public:
   ///@}
 
 protected:
-  vtkDelaunayDisparityFilter() = default;
+  vtkDelaunayDisparityFilter();
   ~vtkDelaunayDisparityFilter() override = default;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  vtkTypeBool MinimumDisparity = 1;
-  double Tolerance = 2e-4;
-  vtkTypeBool KeepEdges = 0;
-  vtkTypeBool ContinueBackground = 1;
-  double GrazingAngle = 70.0;
-  int RefutingViews = 1;
-  int SupportingNeighbors = 2;
-  int SeeThroughViews = 0;
-  int ViolatingFeatures = 0;
-  double LongestEdge = 0.0;
-  double GreatestDepthRatio = 0.0;
+  // Defaults are those of the options structs in Filters/Core/Disparity.
+  vtkTypeBool MinimumDisparity;
+  double Tolerance;
+  vtkTypeBool KeepEdges;
+  vtkTypeBool ContinueBackground;
+  double GrazingAngle;
+  int RefutingViews;
+  int SupportingNeighbors;
+  int SeeThroughViews;
+  int ViolatingFeatures;
+  double LongestEdge;
+  double GreatestDepthRatio;
 
 private:
   vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;

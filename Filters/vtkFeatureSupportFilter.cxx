@@ -23,6 +23,15 @@
 
 vtkStandardNewMacro(vtkFeatureSupportFilter);
 
+vtkFeatureSupportFilter::vtkFeatureSupportFilter()
+{
+  const freespace::FeatureSupportOptions options;
+  this->Radius = options.radius;
+  this->RadiusInSpacings = options.spacings;
+  this->MinimumNeighbors = options.minimumNeighbors;
+  this->DisparityTolerance = options.disparityTolerance;
+}
+
 namespace
 {
 

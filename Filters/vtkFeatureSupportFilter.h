@@ -50,7 +50,7 @@ public:
 
   ///@{
   /**
-   * How many neighbours must agree. 0 keeps every finite feature. Default 3.
+   * How many neighbours must agree. 0, the default, keeps every finite feature.
    */
   vtkSetMacro(MinimumNeighbors, int);
   vtkGetMacro(MinimumNeighbors, int);
@@ -65,15 +65,16 @@ public:
   ///@}
 
 protected:
-  vtkFeatureSupportFilter() = default;
+  vtkFeatureSupportFilter();
   ~vtkFeatureSupportFilter() override = default;
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Radius = 4.0;
-  double RadiusInSpacings = 0.0;
-  int MinimumNeighbors = 3;
-  double DisparityTolerance = 0.01;
+  // Defaults are those of freespace::FeatureSupportOptions.
+  double Radius;
+  double RadiusInSpacings;
+  int MinimumNeighbors;
+  double DisparityTolerance;
 
 private:
   vtkFeatureSupportFilter(const vtkFeatureSupportFilter&) = delete;

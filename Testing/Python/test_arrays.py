@@ -64,6 +64,7 @@ class TestArrays(unittest.TestCase):
         rays = np.column_stack([pixels, np.ones(5)]) @ np.linalg.inv(view['K']).T
         view.update(image_points=pixels, points=depth * rays - view['cam_from_world'][:, 3])
         support = freespace.vtkFeatureSupportFilter()
+        support.SetMinimumNeighbors(3)
         support.SetInputDataObject(freespace.make_views({'a': freespace.make_view(**view)}))
         support.Update()
         kept = freespace.views(support.GetOutput())['a']

@@ -2,6 +2,11 @@
 #ifndef freespace_TriangulateStage_h
 #define freespace_TriangulateStage_h
 
+#include "Disparity/DelaunayDisparity.h"
+#include "Disparity/FeatureSupport.h"
+#include "Disparity/LongTriangles.h"
+#include "Disparity/OutlierRejection.h"
+
 #include <CLI/CLI.hpp>
 
 #include <vtkSmartPointer.h>
@@ -25,15 +30,15 @@ public:
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, vtkMultiBlockDataSet* features) const;
 
 private:
-  double SupportRadius = 4;
-  int SupportNeighbors = 0;
-  double Tolerance = 0.0002;
-  int SupportingNeighbors = 2;
-  int SeeThroughViews = 0;
-  int ViolatingFeatures = 0;
-  double LongestEdge = 0;
-  double GreatestDepthRatio = 0;
-  bool KeepEdges = false;
+  double SupportRadius = FeatureSupportOptions().radius;
+  int SupportNeighbors = FeatureSupportOptions().minimumNeighbors;
+  double Tolerance = DelaunayDisparityOptions().tolerance;
+  int SupportingNeighbors = OutlierRejectionOptions().neighbors;
+  int SeeThroughViews = OutlierRejectionOptions().seeThroughViews;
+  int ViolatingFeatures = OutlierRejectionOptions().violatingFeatures;
+  double LongestEdge = LongTrianglesOptions().longestEdge;
+  double GreatestDepthRatio = LongTrianglesOptions().greatestDepth;
+  bool KeepEdges = DelaunayDisparityOptions().keepEdges;
   std::string Background = "auto";
 };
 
