@@ -238,7 +238,38 @@ bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& p
   {
     task.bounds = task.core->Hull().Bounds();
   }
+  this->ChooseCells(task, progress);
   return true;
+}
+
+void vtkBisectionContourFilter::ChooseCells(Task& task, const freespace::Progress& progress)
+{
+  if (this->Cells == 0)
+  {
+    task.options.cells =
+      task.core ? task.core->Cells() : freespace::ResolutionOptions().fewestCells;
+    task.options.cells =
+      freespace::CellsWithinMemory(task.Field(), task.bounds, task.options, progress);
+  }
+}
+
+int vtkBisectionContourFilter::FindCells()
+{
+  this->AbortExecute = 0;
+  try
+  {
+    Task task;
+    return this->Prepare(task, freespace::AlgorithmProgress(this)) ? task.options.cells : 0;
+  }
+  catch (const freespace::Aborted&)
+  {
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
 }
 
 // Of the progress, as of the time: building takes it for each triangle of the maps, contouring for each
@@ -254,7 +285,9 @@ double vtkBisectionContourFilter::ShareOfBuilding()
   }
   vtkMultiBlockDataSet* maps = freespaceUnion->GetMaps();
   const double triangles = maps ? static_cast<double>(maps->GetNumberOfCells()) : 0.0;
-  const double cells = trianglesPerCell * std::max(1, this->Cells) * std::max(1, this->Cells);
+  const double along =
+    this->Cells > 0 ? this->Cells : freespace::ResolutionOptions().fewestCells; // or more
+  const double cells = trianglesPerCell * along * along;
   return maps ? std::clamp(triangles / (triangles + cells), 0.01, 0.9) : unknown;
 }
 

@@ -73,10 +73,13 @@ public:
 
   ///@{
   /**
-   * How many cells the lattice has along the longest side of the bounds. Default 256.
+   * How many cells the lattice has along the longest side of the bounds. Automatic, or 0, takes the cells
+   * that a vtkFreespaceUnion suggests, or fewer where MemoryLimit asks for it, and 256 for other
+   * functions. Default 256.
    */
   vtkSetMacro(Cells, int);
   vtkGetMacro(Cells, int);
+  void SetCellsToAutomatic() { this->SetCells(0); }
   ///@}
 
   ///@{
@@ -148,6 +151,11 @@ public:
   double EstimateMemory();
 
   /**
+   * How many cells the lattice has, automatic or not, for what is set. 0 when it cannot be told.
+   */
+  int FindCells();
+
+  /**
    * Covers the function.
    */
   vtkMTimeType GetMTime() override;
@@ -173,6 +181,7 @@ protected:
 private:
   struct Task;
   bool Prepare(Task& task, const freespace::Progress& progress);
+  void ChooseCells(Task& task, const freespace::Progress& progress);
   double ShareOfBuilding();
 
   vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;

@@ -89,6 +89,16 @@ private:
   bool IsStopped = false;
 };
 
+void GiveBounds(const Eigen::AlignedBox3d& box, double bounds[6])
+{
+  vtkMath::UninitializeBounds(bounds);
+  for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
+  {
+    bounds[2 * axis] = box.min()[axis];
+    bounds[2 * axis + 1] = box.max()[axis];
+  }
+}
+
 Eigen::Vector3d PointOf(vtkPoints* points, vtkIdType i)
 {
   Eigen::Vector3d point;
@@ -230,6 +240,13 @@ void vtkFreespaceUnion::Build(const freespace::Progress& progress)
   freespace::FreespaceUnionOptions options;
   options.minimumViews = this->MinimumViews;
   options.hullMargin = this->HullMargin;
+  using Mode = freespace::RegionOptions::Mode;
+  options.region.mode = this->RegionMode == BOX_REGION ? Mode::Box
+    : this->RegionMode == WHOLE_REGION                 ? Mode::All
+                                                       : Mode::Automatic;
+  options.region.box = Eigen::AlignedBox3d(
+    Eigen::Vector3d(this->Region[0], this->Region[2], this->Region[4]),
+    Eigen::Vector3d(this->Region[1], this->Region[3], this->Region[5]));
   vtkMultiBlockDataSet* maps = this->Inner->Maps;
   this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
     maps->GetNumberOfBlocks(),
@@ -402,16 +419,48 @@ bool vtkFreespaceUnion::AreSpheresFree(
 void vtkFreespaceUnion::GetBounds(double bounds[6])
 {
   const auto core = this->GetCore();
-  vtkMath::UninitializeBounds(bounds);
-  if (core && !core->Hull().IsEmpty())
+  GiveBounds(core ? core->Hull().Bounds() : Eigen::AlignedBox3d(), bounds);
+}
+
+void vtkFreespaceUnion::SetRegion(
+  double x0, double x1, double y0, double y1, double z0, double z1)
+{
+  const double bounds[6] = { x0, x1, y0, y1, z0, z1 };
+  this->SetRegion(bounds);
+}
+
+void vtkFreespaceUnion::SetRegion(const double bounds[6])
+{
+  if (this->RegionMode != BOX_REGION || !std::equal(bounds, bounds + 6, this->Region))
   {
-    const Eigen::AlignedBox3d& box = core->Hull().Bounds();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      bounds[2 * axis] = box.min()[axis];
-      bounds[2 * axis + 1] = box.max()[axis];
-    }
+    std::copy(bounds, bounds + 6, this->Region);
+    this->RegionMode = BOX_REGION;
+    this->Modified();
   }
+}
+
+void vtkFreespaceUnion::GetRegionBounds(double bounds[6])
+{
+  const auto core = this->GetCore();
+  GiveBounds(core ? core->FeatureRegion().box : Eigen::AlignedBox3d(), bounds);
+}
+
+vtkIdType vtkFreespaceUnion::GetNumberOfFeatures()
+{
+  const auto core = this->GetCore();
+  return core ? static_cast<vtkIdType>(core->FeatureRegion().features) : 0;
+}
+
+vtkIdType vtkFreespaceUnion::GetNumberOfFeaturesBeyond()
+{
+  const auto core = this->GetCore();
+  return core ? static_cast<vtkIdType>(core->FeatureRegion().beyond) : 0;
+}
+
+int vtkFreespaceUnion::GetSuggestedCells()
+{
+  const auto core = this->GetCore();
+  return core ? core->Cells() : 0;
 }
 
 void vtkFreespaceUnion::PrintSelf(ostream& os, vtkIndent indent)
@@ -419,6 +468,13 @@ void vtkFreespaceUnion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
+  os << indent << "RegionMode: " << this->RegionMode << "\n";
+  os << indent << "Region:";
+  for (double bound : this->Region)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
   os << indent << "AbortExecute: " << this->AbortExecute << "\n";
   os << indent << "Maps: " << this->Inner->Maps.Get() << "\n";
   os << indent << "InputConnection: " << this->Inner->Connection.Get() << "\n";

@@ -4,8 +4,8 @@
  * @brief the union of the free spaces of triangulated views, as an implicit function
  *
  * Phi' of section 2.2 of the paper. A point is free when it lies, seen from some view, in front of
- * the view's triangulated disparity map, or when it lies outside of the convex hull of all
- * features.
+ * the view's triangulated disparity map, or when it lies outside of the convex hull of the
+ * features in the region of interest.
  *
  * **Sign**: negative in matter, positive in free space, zero on the boundary; the gradient points
  * out of the matter. **Value**: a length, in the unit of the camera model: the greater of the
@@ -89,11 +89,49 @@ public:
 
   ///@{
   /**
-   * By how much the hull is pushed out, as a fraction of the diagonal of the features' bounding
-   * box. 0 is the paper, 10 and more an error. Default 0.01.
+   * By how much the hull is pushed out, as a fraction of the diagonal of the bounding box of the features
+   * in the region. 0 is the paper, 10 and more an error. Automatic, or -1, is somewhat more than a cell
+   * of the lattice that GetSuggestedCells tells. Default 0.01.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);
+  void SetHullMarginToAutomatic() { this->SetHullMargin(-1); }
+  ///@}
+
+  enum RegionModes
+  {
+    AUTOMATIC_REGION = 0,
+    WHOLE_REGION = 1,
+    BOX_REGION = 2
+  };
+
+  ///@{
+  /**
+   * The region of interest: the hull, and with it the bounds, are those of the features in it; features
+   * beyond carve like all others. It is found from the features, holds all of them, or is a box (x0, x1,
+   * y0, y1, z0, z1) in world coordinates, whose setting sets the mode. A few features far behind the
+   * scene would else decide how large the lattice is. Default automatic, which is the whole where the
+   * features are one compact body.
+   */
+  vtkSetClampMacro(RegionMode, int, AUTOMATIC_REGION, BOX_REGION);
+  vtkGetMacro(RegionMode, int);
+  void SetRegionModeToAutomatic() { this->SetRegionMode(AUTOMATIC_REGION); }
+  void SetRegionModeToWhole() { this->SetRegionMode(WHOLE_REGION); }
+  void SetRegion(double x0, double x1, double y0, double y1, double z0, double z1);
+  void SetRegion(const double bounds[6]);
+  vtkGetVector6Macro(Region, double);
+  ///@}
+
+  ///@{
+  /**
+   * What was found, after an Update: the box of the features in the region (1, -1, ... without any), how many
+   * features there are, how many of them lie beyond the region, and how many cells along its longest
+   * side show what the features tell, by the footprint of their pixels and their distances.
+   */
+  void GetRegionBounds(double bounds[6]);
+  vtkIdType GetNumberOfFeatures();
+  vtkIdType GetNumberOfFeaturesBeyond();
+  int GetSuggestedCells();
   ///@}
 
   ///@{
@@ -183,6 +221,8 @@ protected:
 
   int MinimumViews = 1;
   double HullMargin = 0.01;
+  int RegionMode = AUTOMATIC_REGION;
+  double Region[6] = { 1, -1, 1, -1, 1, -1 };
   vtkTypeBool AbortExecute = 0;
 
 private:

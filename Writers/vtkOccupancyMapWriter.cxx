@@ -271,6 +271,11 @@ void vtkOccupancyMapWriter::WriteData()
       phi->SetMaps(blocks);
       phi->SetHullMargin(this->HullMargin);
       phi->SetMinimumViews(this->MinimumViews);
+      if (this->RegionMode == vtkFreespaceUnion::BOX_REGION)
+      {
+        phi->SetRegion(this->Region);
+      }
+      phi->SetRegionMode(this->RegionMode);
       const auto core = phi->GetCore(progress.Part(0.0, Built));
       double bounds[6];
       phi->GetBounds(bounds);
@@ -296,6 +301,17 @@ void vtkOccupancyMapWriter::WriteData()
     }));
 }
 
+void vtkOccupancyMapWriter::SetRegion(const double bounds[6])
+{
+  if (this->RegionMode != vtkFreespaceUnion::BOX_REGION ||
+    !std::equal(bounds, bounds + 6, this->Region))
+  {
+    std::copy(bounds, bounds + 6, this->Region);
+    this->RegionMode = vtkFreespaceUnion::BOX_REGION;
+    this->Modified();
+  }
+}
+
 void vtkOccupancyMapWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -303,4 +319,11 @@ void vtkOccupancyMapWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
+  os << indent << "RegionMode: " << this->RegionMode << "\n";
+  os << indent << "Region:";
+  for (double bound : this->Region)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
 }

@@ -57,6 +57,18 @@ public:
   vtkGetMacro(MinimumViews, int);
   ///@}
 
+  ///@{
+  /**
+   * The region of interest, as in vtkFreespaceUnion. Default automatic.
+   */
+  vtkSetClampMacro(RegionMode, int, 0, 2);
+  vtkGetMacro(RegionMode, int);
+  void SetRegionModeToAutomatic() { this->SetRegionMode(0); }
+  void SetRegionModeToWhole() { this->SetRegionMode(1); }
+  void SetRegion(const double bounds[6]);
+  vtkGetVector6Macro(Region, double);
+  ///@}
+
 protected:
   vtkOccupancyMapWriter() = default;
   ~vtkOccupancyMapWriter() override = default;
@@ -68,6 +80,8 @@ protected:
   double Resolution = 0.0;
   double HullMargin = 0.01;
   int MinimumViews = 1;
+  int RegionMode = 0;
+  double Region[6] = { 1, -1, 1, -1, 1, -1 };
 
 private:
   vtkOccupancyMapWriter(const vtkOccupancyMapWriter&) = delete;

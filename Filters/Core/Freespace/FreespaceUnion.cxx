@@ -43,21 +43,6 @@ void CheckTriangles(const DisparityMap& map)
   }
 }
 
-// The points that span the hull: not those that the background continuation placed.
-std::vector<Vector3d> FiniteFeatures(const DisparityMap& map)
-{
-  std::vector<Vector3d> features;
-  for (std::size_t i = 0; i < map.points.size(); ++i)
-  {
-    const bool isFeature = i >= map.sourceView.size() || map.sourceView[i] >= 0;
-    if (isFeature && map.points[i].allFinite())
-    {
-      features.push_back(map.points[i]);
-    }
-  }
-  return features;
-}
-
 }
 
 void FreespaceUnionOptions::Check() const
@@ -67,7 +52,14 @@ void FreespaceUnionOptions::Check() const
     throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
       ", it must be at least 1.");
   }
-  if (!(this->hullMargin >= 0 && this->hullMargin < MostMargin))
+  this->region.Check();
+  this->resolution.Check();
+  if (!(this->hullMarginCells >= 0))
+  {
+    throw Error("The margin of the hull in cells must be 0 or greater.");
+  }
+  if (this->hullMargin != AutomaticMargin &&
+    !(this->hullMargin >= 0 && this->hullMargin < MostMargin))
   {
     std::ostringstream sentence;
     sentence << "The margin of the hull is " << this->hullMargin
@@ -91,10 +83,9 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
 {
   options.Check();
   this->CheckCount();
-  std::vector<std::vector<Vector3d>> outer(count);
-  std::vector<Eigen::AlignedBox3d> boxes(count);
+  std::vector<ViewFeatures> features(count);
   std::mutex asking;
-  ParallelForWithProgress(count, parallelFor, progress.Part(0.0, 0.9),
+  ParallelForWithProgress(count, parallelFor, progress.Part(0.0, 0.8),
     [&](std::size_t i, const CancellationFlag& stop)
     {
       const DisparityMap map = [&]
@@ -104,25 +95,13 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
         return mapOf(i);
       }();
       CheckTriangles(map);
-      const std::vector<Vector3d> features = FiniteFeatures(map);
-      for (const Vector3d& feature : features)
-      {
-        boxes[i].extend(feature);
-      }
-      outer[i] = FeatureHull::OuterPoints(features, stop);
+      features[i] = FeaturesOfMap(map, i);
       this->Views[i] = std::make_unique<ViewFreespace>(map, stop);
     });
-  std::vector<Vector3d> features;
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    features.insert(features.end(), outer[i].begin(), outer[i].end());
-    box.extend(boxes[i]);
-  }
-  const double margin = features.empty() ? 0.0 : options.hullMargin * box.diagonal().norm();
-  RunWithProgress(progress.Part(0.9, 1.0),
-    [&](const CancellationFlag& stop)
-    { this->FeaturesHull = std::make_unique<FeatureHull>(features, margin, stop); });
+  const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
+  this->Region = MakeRegionHull(features, options.region, options.resolution,
+    isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
+    progress.Part(0.8, 1.0));
 }
 
 void FreespaceUnion::CheckCount() const

@@ -5,7 +5,7 @@
 #include "Common/ParallelFor.h"
 #include "Common/Progress.h"
 #include "Contour/Lattice/ContourField.h"
-#include "Freespace/FeatureHull.h"
+#include "Freespace/RegionHull.h"
 #include "Freespace/ViewOctree.h"
 #include "ViewFreespace/ViewFreespace.h"
 
@@ -22,14 +22,21 @@ struct FreespaceUnionOptions
   int minimumViews = 1; ///< number of views in whose free space a point must lie to be free; >= 1,
                         ///< at most the number of views; the paper's is 1
   double hullMargin = 0.01; ///< offset of the hull's planes to the outside, as a fraction of the
-                            ///< diagonal of the features' box; >= 0, < 10; the paper's is 0
+                            ///< diagonal of the region's box; >= 0, < 10; the paper's is 0; or
+                            ///< AutomaticMargin: hullMarginCells counts
+  double hullMarginCells = 1.25; ///< the same in cells of the suggested lattice; >= 0. Matter on the
+                                 ///< hull, such as a floor, must be thick enough for the lattice
+  RegionOptions region;          ///< the hull is that of the features in this region
+  ResolutionOptions resolution;  ///< of the suggested lattice
+
+  static constexpr double AutomaticMargin = -1;
 
   /// Throws Error when a field is out of its range.
   void Check() const;
 };
 
 /// Phi' of section 2.2: the union of the views' free spaces and of the outside of the convex hull
-/// of all features.
+/// of the features in the region of interest. Features beyond it carve like all others.
 ///
 /// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
 /// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
@@ -85,7 +92,10 @@ public:
   bool IsThreadSafe() const override { return true; }
 
   int MinimumViews() const { return this->Options.minimumViews; }
-  const FeatureHull& Hull() const { return *this->FeaturesHull; }
+  const FeatureHull& Hull() const { return *this->Region.hull; }
+  const RegionOfInterest& FeatureRegion() const { return this->Region.region; }
+  /// The lattice that the features in the region ask for, along its longest side.
+  int Cells() const { return this->Region.cells; }
   std::size_t NumberOfViews() const { return this->Views.size(); }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
 
@@ -108,7 +118,7 @@ private:
 
   FreespaceUnionOptions Options;
   std::vector<std::unique_ptr<ViewFreespace>> Views;
-  std::unique_ptr<FeatureHull> FeaturesHull;
+  RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;
 };

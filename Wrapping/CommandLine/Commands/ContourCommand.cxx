@@ -44,6 +44,7 @@ void Contour(Session& session, const Settings& settings)
       }
       maps = ReadMaps(session, settings.maps);
       const auto filter = settings.contour.MakeFilter(maps);
+      settings.contour.Choose(session, filter);
       isWritten =
         ranks.Count() == 1 && settings.contour.Stream(session, filter, maps, settings.output);
       piece = isWritten ? nullptr

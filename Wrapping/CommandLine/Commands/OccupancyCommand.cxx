@@ -4,6 +4,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Stages/RegionOption.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -49,6 +50,7 @@ struct Settings
   std::string maps;
   std::string output;
   double resolution = 0;
+  RegionOption region;
   double hullMargin = 0.01;
   int minimumViews = 1;
 };
@@ -71,6 +73,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
     ->check(NonNegative())
     ->capture_default_str();
+  settings->region.AddTo(*command);
   command
     ->add_option("--hull-margin", settings->hullMargin,
       "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
@@ -92,6 +95,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetResolution(settings->resolution);
       writer->SetHullMargin(settings->hullMargin);
       writer->SetMinimumViews(settings->minimumViews);
+      settings->region.SetUp(writer.Get());
       session.Watch(writer, "occupancy",
         [&]
         {

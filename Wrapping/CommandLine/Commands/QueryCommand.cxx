@@ -6,6 +6,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Stages/RegionOption.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFreespaceUnion.h>
@@ -36,6 +37,7 @@ struct Settings
   std::string maps;
   std::string points;
   std::string segments;
+  RegionOption region;
   double hullMargin = 0.01;
   int minimumViews = 1;
 };
@@ -170,6 +172,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
                        "fraction of it; inf: nowhere")
                      ->type_name("FILE.csv");
   points->excludes(segments);
+  settings->region.AddTo(*command);
   command
     ->add_option("--hull-margin", settings->hullMargin,
       "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
@@ -192,6 +195,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
       phi->SetMaps(ReadMaps(session, settings->maps));
       phi->SetHullMargin(settings->hullMargin);
       phi->SetMinimumViews(settings->minimumViews);
+      settings->region.SetUp(phi.Get());
       session.Watch(phi, "build", [&] { phi->Update(); });
       settings->points.empty() ? TellSegments(session, phi, settings->segments)
                                : TellPoints(session, phi, settings->points);

@@ -3,6 +3,7 @@
 
 #include "Common/FileExtension.h"
 #include "Data/SurfaceViewpoint.h"
+#include "Freespace/FreespaceUnion.h"
 #include "Output/PieceStream.h"
 #include "Output/Viewpoint.h"
 #include "Session/NumberValidators.h"
@@ -16,7 +17,9 @@
 #include <vtkPolyData.h>
 #include <vtkSimplifySurfaceFilter.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -43,8 +46,13 @@ double ShareOfMemory()
 
 void ContourStage::AddOptions(CLI::App& command)
 {
-  command.add_option("--cells", this->Cells, "Lattice cells along the longest side")
-    ->check(CLI::Range(1, 65536))
+  this->Region.AddTo(command, "Surface");
+  command
+    .add_option("--cells", this->Cells,
+      "Lattice cells along the longest side; auto: as many as show what the features tell, within "
+      "the memory limit")
+    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 65536))
+    ->type_name("auto|INT")
     ->capture_default_str()
     ->group("Surface");
   command
@@ -82,8 +90,9 @@ void ContourStage::AddOptions(CLI::App& command)
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
 {
-  const auto surface =
-    this->Join(session, { this->RunPiece(session, this->MakeFilter(maps), 0, 1) });
+  const auto contour = this->MakeFilter(maps);
+  this->Choose(session, contour);
+  const auto surface = this->Join(session, { this->RunPiece(session, contour, 0, 1) });
   AddViewpoint(maps, surface);
   return surface;
 }
@@ -93,16 +102,34 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
-  // A floor on the hull has to be thick enough for the lattice to see it, and no thicker.
-  constexpr double cells = 1.25;
-  phi->SetHullMargin(this->HullMargin < 0 ? cells / this->Cells : this->HullMargin);
+  this->Region.SetUp(phi.Get());
+  const int cells = this->Cells == "auto" ? 0 : std::stoi(this->Cells);
+  // As thick as it is where the lattice is chosen, too.
+  phi->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
+      : cells > 0 ? FreespaceUnionOptions().hullMarginCells / cells
+                  : FreespaceUnionOptions::AutomaticMargin);
   phi->SetMinimumViews(this->MinimumViews);
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
-  contour->SetCells(this->Cells);
+  contour->SetCells(cells);
   contour->SetSharpEdges(!this->NotSharp);
   contour->SetMemoryLimit(this->MemoryLimit < 0 ? ShareOfMemory() : this->MemoryLimit);
   return contour;
+}
+
+void ContourStage::Choose(Session& session, vtkBisectionContourFilter* contour) const
+{
+  auto* phi = vtkFreespaceUnion::SafeDownCast(contour->GetImplicitFunction());
+  session.Watch(phi, "build", [&] { phi->Update(); });
+  int cells = 0;
+  session.Watch(contour, "lattice", [&] { cells = contour->FindCells(); });
+  double b[6];
+  phi->GetBounds(b);
+  const double longest = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
+  std::ostringstream side;
+  side.precision(3);
+  side << longest / cells;
+  session.Log(RegionOption::Found(phi) + "; " + std::to_string(cells) + " cells of " + side.str());
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
@@ -118,7 +145,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
 {
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
-  const double worst = std::pow(this->Cells, 3) * WorstCell;
+  const double worst = this->Cells == "auto" ? 0 : std::pow(std::stod(this->Cells), 3) * WorstCell;
   if (limit == 0 || worst <= limit || this->Observed || this->Simplify > 0 ||
     LowerCaseExtension(fileName) != ".ply")
   {

@@ -2,6 +2,8 @@
 #ifndef freespace_ContourStage_h
 #define freespace_ContourStage_h
 
+#include "Stages/RegionOption.h"
+
 #include <CLI/CLI.hpp>
 
 #include <vtkSmartPointer.h>
@@ -30,6 +32,9 @@ public:
   /// What makes it of the maps.
   vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
 
+  /// Chooses the region and the lattice, and tells them in a line.
+  void Choose(Session& session, vtkBisectionContourFilter* contour) const;
+
   /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
   /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
   /// RunPiece tells why.
@@ -43,7 +48,8 @@ public:
     Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
 private:
-  int Cells = 256;
+  RegionOption Region;
+  std::string Cells = "auto";
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
   double HullMargin = -1;  // below 0: somewhat more than a cell
   int MinimumViews = 1;

@@ -158,4 +158,22 @@ ContourEstimate EstimateContour(const ContourField& field, const AlignedBox3d& b
   return estimate;
 }
 
+int CellsWithinMemory(const ContourField& field, const AlignedBox3d& bounds,
+  const ContourOptions& options, const Progress& progress)
+{
+  // Ten times what surfaces have: what fits then need not be estimated.
+  constexpr double manyTriangles = 60;
+  const bool isSingle = SinglePrecisionSuffices(bounds, options);
+  const double cells = options.cells;
+  if (options.memoryLimit <= 0 ||
+    ContourMegabytes(manyTriangles * cells * cells, options, isSingle) <= options.memoryLimit)
+  {
+    return options.cells;
+  }
+  const double needed = EstimateContour(field, bounds, options, progress).megabytes;
+  // It is an estimate, to a tenth or two.
+  const double share = 0.75 * options.memoryLimit / std::max(needed, 1e-9);
+  return share >= 1 ? options.cells : std::max(2, static_cast<int>(cells * std::sqrt(share)));
+}
+
 }

@@ -24,6 +24,10 @@ struct ContourEstimate
 ContourEstimate EstimateContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const Progress& progress = {});
 
+/// The options' cells, or as many fewer as it takes for a contour to fit into their memory limit.
+int CellsWithinMemory(const ContourField& field, const Eigen::AlignedBox3d& bounds,
+  const ContourOptions& options, const Progress& progress = {});
+
 /// The memory for a contour and for making it, in MiB.
 double ContourMegabytes(double triangles, const ContourOptions& options, bool isSinglePrecision);
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_RegionHull_h
+#define freespace_RegionHull_h
+
+#include "Common/DisparityMap.h"
+#include "Freespace/FeatureHull.h"
+#include "Freespace/SurfaceResolution.h"
+
+#include <memory>
+
+namespace freespace
+{
+
+/// The features of the index-th of all disparity maps that are finite: not what was put behind an occluding
+/// edge.
+ViewFeatures FeaturesOfMap(const DisparityMap& map, std::size_t index);
+
+/// The hull of the features in the region, and the lattice for it.
+struct RegionHull
+{
+  std::unique_ptr<FeatureHull> hull;
+  RegionOfInterest region;
+  int cells = 0; ///< along the longest side of the region, by the features
+};
+
+/// Finds the region. The hull is pushed out by a share of the region's diagonal; where that is negative, by so
+/// many cells' sides of the lattice.
+RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOptions& region,
+  const ResolutionOptions& resolution, double margin, const ParallelFor& parallelFor,
+  const Progress& progress);
+
+}
+
+#endif
