@@ -7,6 +7,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
@@ -269,6 +270,14 @@ int vtkAppendPiecesFilter::RequestData(
   try
   {
     Assembly(pieces).Run(output);
+    if (!pieces.empty())
+    {
+      output->GetFieldData()->PassData(pieces[0]->GetFieldData());
+    }
+    if (!this->Crumbs)
+    {
+      freespace::DropCrumbs(output);
+    }
     if (this->ObservedOnly)
     {
       freespace::KeepObserved(output);
@@ -284,5 +293,6 @@ int vtkAppendPiecesFilter::RequestData(
 void vtkAppendPiecesFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Crumbs: " << this->Crumbs << "\n";
   os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
 }

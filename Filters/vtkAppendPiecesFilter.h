@@ -38,6 +38,16 @@ public:
   vtkBooleanMacro(ObservedOnly, bool);
   ///@}
 
+  ///@{
+  /**
+   * Keep connected components that no feature supports, like vtkBisectionContourFilter's setting of that name,
+   * which leaves them to this filter where it makes pieces. Default on.
+   */
+  vtkSetMacro(Crumbs, bool);
+  vtkGetMacro(Crumbs, bool);
+  vtkBooleanMacro(Crumbs, bool);
+  ///@}
+
 protected:
   vtkAppendPiecesFilter() = default;
   ~vtkAppendPiecesFilter() override = default;
@@ -46,6 +56,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   bool ObservedOnly = false;
+  bool Crumbs = true;
 
 private:
   vtkAppendPiecesFilter(const vtkAppendPiecesFilter&) = delete;

@@ -7,11 +7,15 @@
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Freespace/FreespaceUnion.h"
+#include "Mesh/FeatureGrid.h"
 #include "vtkFreespaceUnion.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkImplicitFunction.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -140,6 +144,50 @@ void SetTriangles(vtkPolyData* output, vtkTypeInt32Array* corners)
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, corners);
   output->SetPolys(cells);
+}
+
+/// What was chosen, as field data.
+void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int cells)
+{
+  const freespace::RegionOfInterest& region = core.FeatureRegion();
+  vtkNew<vtkDoubleArray> lattice;
+  lattice->SetName("Lattice");
+  for (const double value :
+    { static_cast<double>(cells), static_cast<double>(region.features),
+      static_cast<double>(region.beyond) })
+  {
+    lattice->InsertNextValue(value);
+  }
+  output->GetFieldData()->AddArray(lattice);
+}
+
+/// Marks the triangles that have a feature beside them: within two cells, as the features' distance asks for
+/// them, or one of the lattice's.
+void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, double cell)
+{
+  const double reach = std::max(cell, 2 * core.CellSide());
+  const freespace::FeatureGrid grid(core.Features(), reach);
+  vtkNew<vtkUnsignedCharArray> supported;
+  supported->SetName(freespace::SupportedName);
+  supported->SetNumberOfValues(output->GetNumberOfPolys());
+  freespace::SMPParallelFor(static_cast<std::size_t>(output->GetNumberOfPolys()),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const vtkIdType id = static_cast<vtkIdType>(t);
+        vtkNew<vtkIdList> corners;
+        output->GetPolys()->GetCellAtId(id, corners);
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero(), corner;
+        for (vtkIdType i = 0; i < 3; ++i)
+        {
+          output->GetPoints()->GetPoint(corners->GetId(i), corner.data());
+          middle += corner / 3;
+        }
+        supported->SetValue(id, grid.IsNear(middle) ? 1 : 0);
+      }
+    });
+  output->GetCellData()->AddArray(supported);
 }
 
 }
@@ -352,6 +400,18 @@ int vtkBisectionContourFilter::RequestData(
     freespace::BisectionContour(task.Field(), task.bounds, task.options, allocate,
       progress.Part(built, 1.0), freespace::SMPParallelFor);
     SetTriangles(output, corners);
+    if (task.isDirect)
+    {
+      MarkSupported(output, *task.core, task.bounds.sizes().maxCoeff() / task.options.cells);
+    }
+    if (task.isDirect)
+    {
+      TellLattice(output, *task.core, task.options.cells);
+    }
+    if (task.isDirect && !this->Crumbs && task.options.pieces == 1)
+    {
+      freespace::DropCrumbs(output);
+    }
     if (this->ObservedOnly && task.isDirect)
     {
       freespace::KeepObserved(output);
@@ -380,6 +440,7 @@ void vtkBisectionContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ExactCrossings: " << this->ExactCrossings << "\n";
   os << indent << "SharpEdges: " << this->SharpEdges << "\n";
   os << indent << "SharpAngle: " << this->SharpAngle << "\n";
+  os << indent << "Crumbs: " << this->Crumbs << "\n";
   os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

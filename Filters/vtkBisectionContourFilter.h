@@ -20,6 +20,9 @@
  * |------------|---------------|-----------------------------------------------------------------|
  * | View       | int           | index of the view that carved the triangle, -1 for the hull     |
  * | Kind       | unsigned char | 0 a feature triangle, 1 a silhouette wall, 2 hull or the bounds |
+ * | Supported  | unsigned char | 1 where a feature is beside the triangle                         |
+ *
+ * The field array Lattice has the number of cells, of features, and of those beyond the region of interest.
  *
  * Silhouette walls stand on the border of a view's map, and where a triangle that the view sees
  * edge-on (above 85 degrees) spans a jump in depth, from an occluding edge to what lies behind.
@@ -125,9 +128,20 @@ public:
 
   ///@{
   /**
-   * Keep only what was seen: the triangles of Kind 0. That leaves an open surface without the hull and
-   * the walls, among them the "extra" elements of the paper's figure 11. For a vtkFreespaceUnion only.
-   * Default off.
+   * Keep crumbs: connected components of the surface that no feature supports. Else they are left out of a
+   * surface that is made whole, and by vtkAppendPiecesFilter of one that is joined from pieces; the
+   * largest component always stays. For a vtkFreespaceUnion only. Default on.
+   */
+  vtkSetMacro(Crumbs, bool);
+  vtkGetMacro(Crumbs, bool);
+  vtkBooleanMacro(Crumbs, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Keep only what was seen: the triangles of Kind 0, and those that have a feature beside them. That leaves
+   * an open surface without the hull and the walls, among them the "extra" elements of the paper's figure
+   * 11. For a vtkFreespaceUnion only. Default off.
    */
   vtkSetMacro(ObservedOnly, bool);
   vtkGetMacro(ObservedOnly, bool);
@@ -175,6 +189,7 @@ protected:
   bool ExactCrossings = true;
   bool SharpEdges = false;
   double SharpAngle = 60.0;
+  bool Crumbs = true;
   bool ObservedOnly = false;
   double MemoryLimit = 0.0;
 

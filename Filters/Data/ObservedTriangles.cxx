@@ -2,44 +2,60 @@
 #include "Data/ObservedTriangles.h"
 
 #include "Contour/Lattice/ContourField.h"
+#include "Mesh/SurfaceComponents.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkIntArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace freespace
 {
 
-void KeepObserved(vtkPolyData* surface)
+const char* const SupportedName = "Supported";
+
+namespace
 {
-  auto* kinds = vtkUnsignedCharArray::SafeDownCast(surface->GetCellData()->GetArray("Kind"));
-  auto* views = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("View"));
-  if (!kinds || !views)
+
+vtkUnsignedCharArray* CellMarks(vtkPolyData* surface, const char* name)
+{
+  return vtkUnsignedCharArray::SafeDownCast(surface->GetCellData()->GetArray(name));
+}
+
+// Of a data set's arrays the tuples that are kept.
+void KeepTuples(vtkDataSetAttributes* data, vtkIdList* kept)
+{
+  vtkNew<vtkDataSetAttributes> all;
+  all->ShallowCopy(data);
+  data->Initialize();
+  for (int i = 0; i < all->GetNumberOfArrays(); ++i)
   {
-    return;
+    vtkAbstractArray* from = all->GetAbstractArray(i);
+    auto to = vtkSmartPointer<vtkAbstractArray>::Take(from->NewInstance());
+    to->SetName(from->GetName());
+    to->SetNumberOfComponents(from->GetNumberOfComponents());
+    to->SetNumberOfTuples(kept->GetNumberOfIds());
+    from->GetTuples(kept, to);
+    data->AddArray(to);
   }
-  vtkUnsignedCharArray* ghosts = surface->GetPointGhostArray();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(surface->GetPoints()->GetDataType());
-  vtkNew<vtkCellArray> triangles;
-  vtkNew<vtkIntArray> view;
-  view->SetName("View");
-  vtkNew<vtkUnsignedCharArray> kind, ghost;
-  kind->SetName("Kind");
-  ghost->SetName(vtkDataSetAttributes::GhostArrayName());
+}
+
+void KeepTriangles(vtkPolyData* surface, const std::vector<char>& isKept)
+{
+  vtkNew<vtkIdList> points, triangles;
+  vtkNew<vtkCellArray> cells;
   std::vector<vtkIdType> newId(surface->GetNumberOfPoints(), -1);
   vtkCellArray* all = surface->GetPolys();
   for (vtkIdType t = 0; t < all->GetNumberOfCells(); ++t)
   {
-    if (kinds->GetValue(t) != static_cast<unsigned char>(SurfaceKind::Feature))
+    if (!isKept[t])
     {
       continue;
     }
@@ -50,26 +66,64 @@ void KeepObserved(vtkPolyData* surface)
     for (int i = 0; i < 3; ++i)
     {
       vtkIdType& id = newId[corners[i]];
-      if (id < 0)
-      {
-        id = points->InsertNextPoint(surface->GetPoint(corners[i]));
-        ghost->InsertNextValue(ghosts ? ghosts->GetValue(corners[i]) : 0);
-      }
+      id = id < 0 ? points->InsertNextId(corners[i]) : id;
       ids[i] = id;
     }
-    triangles->InsertNextCell(3, ids);
-    view->InsertNextValue(views->GetValue(t));
-    kind->InsertNextValue(kinds->GetValue(t));
+    cells->InsertNextCell(3, ids);
+    triangles->InsertNextId(t);
   }
-  const bool isPiece = ghosts != nullptr;
-  surface->Initialize();
-  surface->SetPoints(points);
-  surface->SetPolys(triangles);
-  surface->GetCellData()->AddArray(view);
-  surface->GetCellData()->AddArray(kind);
-  if (isPiece)
+  vtkNew<vtkPoints> places;
+  places->SetDataType(surface->GetPoints()->GetDataType());
+  places->SetNumberOfPoints(points->GetNumberOfIds());
+  surface->GetPoints()->GetPoints(points, places);
+  surface->SetPoints(places);
+  surface->SetPolys(cells);
+  KeepTuples(surface->GetPointData(), points);
+  KeepTuples(surface->GetCellData(), triangles);
+}
+
+}
+
+void KeepObserved(vtkPolyData* surface)
+{
+  vtkUnsignedCharArray* kinds = CellMarks(surface, "Kind");
+  vtkUnsignedCharArray* supported = CellMarks(surface, SupportedName);
+  if (!kinds)
   {
-    surface->GetPointData()->AddArray(ghost);
+    return;
+  }
+  std::vector<char> isKept(surface->GetNumberOfPolys());
+  for (vtkIdType t = 0; t < surface->GetNumberOfPolys(); ++t)
+  {
+    isKept[t] = kinds->GetValue(t) == static_cast<unsigned char>(SurfaceKind::Feature) ||
+      (supported && supported->GetValue(t) != 0);
+  }
+  KeepTriangles(surface, isKept);
+}
+
+void DropCrumbs(vtkPolyData* surface)
+{
+  vtkUnsignedCharArray* supported = CellMarks(surface, SupportedName);
+  if (!supported || surface->GetNumberOfPolys() == 0)
+  {
+    return;
+  }
+  std::vector<std::array<std::int64_t, 3>> triangles;
+  std::vector<char> isSupported;
+  triangles.reserve(surface->GetNumberOfPolys());
+  for (vtkIdType t = 0; t < surface->GetNumberOfPolys(); ++t)
+  {
+    vtkIdType size;
+    const vtkIdType* corners;
+    surface->GetPolys()->GetCellAtId(t, size, corners);
+    triangles.push_back({ corners[0], corners[1], corners[2] });
+    isSupported.push_back(supported->GetValue(t) != 0);
+  }
+  const std::vector<char> isKept =
+    SupportedComponents(ComponentsOf(triangles, surface->GetNumberOfPoints()), isSupported);
+  if (!std::all_of(isKept.begin(), isKept.end(), [](char kept) { return kept; }))
+  {
+    KeepTriangles(surface, isKept);
   }
 }
 

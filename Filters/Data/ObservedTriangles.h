@@ -9,9 +9,17 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// Drops all triangles of a contour but those of feature triangles (cell array Kind), and the points
-/// that only they had. A surface without that array is left as it is.
+/// The name of the cell array that tells, by 1, which triangles of a contour have a feature beside them.
+extern VTKFREESPACEFILTERS_EXPORT const char* const SupportedName;
+
+/// Drops all triangles of a contour that neither are of a feature triangle (cell array Kind) nor have a feature
+/// beside them (Supported, where it is there), and the points that only they had. All other data stay. A
+/// surface without a Kind is left as it is.
 VTKFREESPACEFILTERS_EXPORT void KeepObserved(vtkPolyData* surface);
+
+/// Drops the connected components of a contour of which no triangle has a feature beside it, but never the
+/// largest. A surface without that array is left as it is.
+VTKFREESPACEFILTERS_EXPORT void DropCrumbs(vtkPolyData* surface);
 
 }
 

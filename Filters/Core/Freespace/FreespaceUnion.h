@@ -96,6 +96,8 @@ public:
   const RegionOfInterest& FeatureRegion() const { return this->Region.region; }
   /// The lattice that the features in the region ask for, along its longest side.
   int Cells() const { return this->Region.cells; }
+  double CellSide() const { return this->Region.cellSide; } ///< that they ask for, whatever the bounds of Cells
+  const std::vector<Eigen::Vector3d>& Features() const { return this->Region.features; } ///< in the region
   std::size_t NumberOfViews() const { return this->Views.size(); }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
 

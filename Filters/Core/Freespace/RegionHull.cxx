@@ -90,7 +90,13 @@ RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOp
       }
     }
   }
-  result.cells = CellsAlong(box, CellSide(views, box, resolution), resolution);
+  result.cellSide = CellSide(views, box, resolution);
+  result.cells = CellsAlong(box, result.cellSide, resolution);
+  for (const ViewFeatures& view : views)
+  {
+    std::copy_if(view.points.begin(), view.points.end(), std::back_inserter(result.features),
+      [&box](const Vector3d& point) { return box.contains(point); });
+  }
   const double share = margin < 0 ? -margin / result.cells : margin;
   const std::vector<Vector3d> features =
     OuterPointsIn(views, box, parallelFor, progress.Part(0.5, 0.8));

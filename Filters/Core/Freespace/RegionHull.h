@@ -20,7 +20,9 @@ struct RegionHull
 {
   std::unique_ptr<FeatureHull> hull;
   RegionOfInterest region;
-  int cells = 0; ///< along the longest side of the region, by the features
+  double cellSide = 0; ///< that the features ask for; 0 without any
+  int cells = 0;       ///< along the longest side of the region, for it
+  std::vector<Eigen::Vector3d> features; ///< of all views, in the region
 };
 
 /// Finds the region. The hull is pushed out by a share of the region's diagonal; where that is negative, by so

@@ -3,7 +3,6 @@
 
 #include "Output/SurfaceFiles.h"
 #include "Output/ViewFiles.h"
-#include "Output/Viewpoint.h"
 #include "Session/Ranks.h"
 #include "Session/Session.h"
 #include "Stages/ContourStage.h"
@@ -33,6 +32,7 @@ void Contour(Session& session, const Settings& settings)
 {
   Ranks ranks;
   vtkSmartPointer<vtkMultiBlockDataSet> maps;
+  vtkSmartPointer<vtkBisectionContourFilter> filter;
   vtkSmartPointer<vtkPolyData> piece;
   bool isWritten = false;
   ranks.Together(
@@ -43,7 +43,7 @@ void Contour(Session& session, const Settings& settings)
         CheckSurfaceName(settings.output);
       }
       maps = ReadMaps(session, settings.maps);
-      const auto filter = settings.contour.MakeFilter(maps);
+      filter = settings.contour.MakeFilter(maps);
       settings.contour.Choose(session, filter);
       isWritten =
         ranks.Count() == 1 && settings.contour.Stream(session, filter, maps, settings.output);
@@ -61,7 +61,7 @@ void Contour(Session& session, const Settings& settings)
       if (ranks.Rank() == 0)
       {
         const auto surface = settings.contour.Join(session, pieces);
-        AddViewpoint(maps, surface);
+        ContourStage::GiveViewpoint(filter, maps, surface);
         WriteSurface(session, surface, settings.output);
       }
     });

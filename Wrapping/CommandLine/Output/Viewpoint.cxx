@@ -24,8 +24,10 @@ std::optional<Camera> BestCamera(const std::vector<View>& views)
 
 }
 
-std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps)
+std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps, const double bounds[6])
 {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+    Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
   std::vector<View> views;
   for (const DisparityMap& map : MapsFromBlocks(maps))
   {
@@ -33,7 +35,7 @@ std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps)
     view.points.clear();
     for (std::size_t i = 0; i < map.points.size(); ++i)
     {
-      if (map.sourceView[i] == static_cast<int>(views.size()))
+      if (map.sourceView[i] == static_cast<int>(views.size()) && box.contains(map.points[i]))
       {
         view.points.push_back(map.points[i]);
       }
@@ -67,9 +69,9 @@ Camera ViewpointOfCameras(
   return *BestCamera(ViewsOfSurface(cameras, surface, fileName));
 }
 
-void AddViewpoint(vtkMultiBlockDataSet* maps, vtkPolyData* surface)
+void AddViewpoint(vtkMultiBlockDataSet* maps, vtkPolyData* surface, const double bounds[6])
 {
-  if (const auto viewpoint = ViewpointOfMaps(maps))
+  if (const auto viewpoint = ViewpointOfMaps(maps, bounds))
   {
     AddCamera(surface, *viewpoint, "");
   }

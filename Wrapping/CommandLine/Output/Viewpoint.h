@@ -16,7 +16,8 @@ namespace freespace
 
 /// A viewpoint (NovelCameras.h) from which a reconstruction shows itself well, whatever way its axes go: by the
 /// features of its disparity maps. Nothing without features.
-std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps);
+/// Features beyond the bounds (x0, x1, y0, y1, z0, z1) of the surface do not count.
+std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps, const double bounds[6]);
 
 /// The same by what the cameras see of a surface. Throws like ViewsOfSurface.
 Camera ViewpointOfCameras(
@@ -28,7 +29,8 @@ std::vector<View> ViewsOfSurface(
   vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const std::string& fileName);
 
 /// Gives a surface the viewpoint of the maps that it comes from, see SurfaceViewpoint.h.
-void AddViewpoint(vtkMultiBlockDataSet* maps, vtkPolyData* surface);
+/// Features beyond the bounds do not count.
+void AddViewpoint(vtkMultiBlockDataSet* maps, vtkPolyData* surface, const double bounds[6]);
 
 }
 

@@ -3,11 +3,14 @@
 
 #include "Data/ViewBlocks.h"
 
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace freespace
@@ -86,13 +89,23 @@ ReportTable ViewTable(vtkMultiBlockDataSet* features, vtkMultiBlockDataSet* maps
 ReportTable SurfaceTable(vtkPolyData* surface)
 {
   const double* box = surface->GetBounds();
-  return { "Surface", { "", "Count or length" },
+  ReportTable table = { "Surface", { "", "Count or length" },
     { { "Vertices", FormatCount(surface->GetNumberOfPoints()) },
       { "Triangles", FormatCount(surface->GetNumberOfPolys()) },
       { "Size of its box, units of the camera model",
         FormatNumber(box[1] - box[0]) + " × " + FormatNumber(box[3] - box[2]) + " × " +
           FormatNumber(box[5] - box[4]) } },
     false, {} };
+  // A surface that was read from a file may not have it.
+  vtkDataArray* lattice = surface->GetFieldData()->GetArray("Lattice");
+  if (lattice && lattice->GetNumberOfTuples() == 3)
+  {
+    table.rows.push_back(
+      { "Lattice cells along its longest side", FormatCount(std::llround(lattice->GetTuple1(0))) });
+    table.rows.push_back(
+      { "Features beyond the region", FormatCount(std::llround(lattice->GetTuple1(2))) });
+  }
+  return table;
 }
 
 ReportTable TimeTable(const std::vector<StageTime>& times)

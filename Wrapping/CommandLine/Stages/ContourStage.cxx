@@ -83,8 +83,16 @@ void ContourStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Surface");
   command
+    .add_option("--crumbs", this->Crumbs,
+      "Pieces apart from the rest that no feature supports: drop or keep; they are kept where the "
+      "surface is written a piece at a time")
+    ->check(CLI::IsMember({ "drop", "keep" }))
+    ->capture_default_str()
+    ->group("Surface");
+  command
     .add_flag("--observed", this->Observed,
-      "Keep only what was seen: an open surface without the hull and silhouette walls")
+      "Keep only what was seen: an open surface without the hull and the silhouette walls, but with "
+      "what has features beside it")
     ->group("Surface");
 }
 
@@ -93,8 +101,16 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
   const auto contour = this->MakeFilter(maps);
   this->Choose(session, contour);
   const auto surface = this->Join(session, { this->RunPiece(session, contour, 0, 1) });
-  AddViewpoint(maps, surface);
+  GiveViewpoint(contour, maps, surface);
   return surface;
+}
+
+void ContourStage::GiveViewpoint(
+  vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface)
+{
+  double bounds[6];
+  vtkFreespaceUnion::SafeDownCast(contour->GetImplicitFunction())->GetBounds(bounds);
+  AddViewpoint(maps, surface, bounds);
 }
 
 vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
@@ -113,6 +129,7 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
   contour->SetImplicitFunction(phi);
   contour->SetCells(cells);
   contour->SetSharpEdges(!this->NotSharp);
+  contour->SetCrumbs(this->Crumbs == "keep");
   contour->SetMemoryLimit(this->MemoryLimit < 0 ? ShareOfMemory() : this->MemoryLimit);
   return contour;
 }
@@ -168,7 +185,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
     stream.Add(contour->GetOutput());
   }
   vtkNew<vtkPolyData> nothingButViewpoint;
-  AddViewpoint(maps, nothingButViewpoint);
+  GiveViewpoint(contour, maps, nothingButViewpoint);
   stream.Finish(ViewpointComment(nothingButViewpoint));
   session.Log("contour: " + std::to_string(stream.NumberOfPoints()) + " vertices, " +
     std::to_string(stream.NumberOfTriangles()) + " triangles");
@@ -184,6 +201,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(
   {
     vtkNew<vtkAppendPiecesFilter> append;
     append->SetObservedOnly(this->Observed);
+    append->SetCrumbs(this->Crumbs == "keep");
     for (vtkPolyData* piece : pieces)
     {
       append->AddInputData(piece);

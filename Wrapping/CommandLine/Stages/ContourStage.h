@@ -47,6 +47,10 @@ public:
   vtkSmartPointer<vtkPolyData> Join(
     Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
+  /// Gives the surface a viewpoint (Output/Viewpoint.h), by the features in the region.
+  static void GiveViewpoint(
+    vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface);
+
 private:
   RegionOption Region;
   std::string Cells = "auto";
@@ -55,6 +59,7 @@ private:
   int MinimumViews = 1;
   bool NotSharp = false;
   double Simplify = 0.0;
+  std::string Crumbs = "drop";
   bool Observed = false;
 };
 
