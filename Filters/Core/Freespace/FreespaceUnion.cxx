@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
+#include "Freespace/CameraSurroundings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,10 @@ void FreespaceUnionOptions::Check() const
   }
   this->region.Check();
   this->resolution.Check();
+  if (!(this->surroundings >= 0 && this->surroundings < 1))
+  {
+    throw Error("The surroundings of the cameras must be 0 or greater and less than 1.");
+  }
   if (!(this->hullMarginCells >= 0))
   {
     throw Error("The margin of the hull in cells must be 0 or greater.");
@@ -79,6 +84,7 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
 FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
   const FreespaceUnionOptions& options, const ParallelFor& parallelFor, const Progress& progress)
   : Options(options)
+  , NumberOfMaps(count)
   , Views(count)
 {
   options.Check();
@@ -102,6 +108,21 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
   this->Region = MakeRegionHull(features, options.region, options.resolution,
     isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
     progress.Part(0.8, 1.0));
+  this->AddSurroundings(features);
+}
+
+// As often as makes them free by themselves.
+void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
+{
+  for (const DisparityMap& map :
+    CameraSurroundings(features, this->Region, this->Options.surroundings))
+  {
+    for (int i = 0; i < this->Options.minimumViews; ++i)
+    {
+      this->Views.push_back(std::make_unique<ViewFreespace>(map));
+      this->SurroundedView.push_back(map.sourceView.front());
+    }
+  }
 }
 
 void FreespaceUnion::CheckCount() const

@@ -28,6 +28,8 @@ struct FreespaceUnionOptions
                                  ///< hull, such as a floor, must be thick enough for the lattice
   RegionOptions region;          ///< the hull is that of the features in this region
   ResolutionOptions resolution;  ///< of the suggested lattice
+  double surroundings = 0.5; ///< around each camera inside the hull all is free so far, as a share of
+                             ///< the distance to the nearest features; in [0, 1); 0: nothing
 
   static constexpr double AutomaticMargin = -1;
 
@@ -98,7 +100,7 @@ public:
   int Cells() const { return this->Region.cells; }
   double CellSide() const { return this->Region.cellSide; } ///< that they ask for, whatever the bounds of Cells
   const std::vector<Eigen::Vector3d>& Features() const { return this->Region.features; } ///< in the region
-  std::size_t NumberOfViews() const { return this->Views.size(); }
+  std::size_t NumberOfViews() const { return this->NumberOfMaps; }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
 
 private:
@@ -115,11 +117,15 @@ private:
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
   void CheckCount() const;
+  void AddSurroundings(const std::vector<ViewFeatures>& features);
+  SurfaceLabel OfMaps(SurfaceLabel label) const;
   const ViewOctree& FreeIndex(const Progress& progress = {}) const;
   const ViewOctree& ClaimIndex() const;
 
   FreespaceUnionOptions Options;
-  std::vector<std::unique_ptr<ViewFreespace>> Views;
+  std::size_t NumberOfMaps;
+  std::vector<std::unique_ptr<ViewFreespace>> Views; ///< the maps', then the cameras' surroundings
+  std::vector<int> SurroundedView;                   ///< of those after the maps', the camera's view
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;

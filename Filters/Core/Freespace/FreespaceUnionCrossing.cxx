@@ -28,7 +28,8 @@ bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, cons
   const int opener = this->FirstAgreement(matter, free, scope, place);
   if (opener >= 0)
   {
-    label = this->LabelOfView(opener, matter + place * (free - matter), free - matter);
+    label =
+      this->OfMaps(this->LabelOfView(opener, matter + place * (free - matter), free - matter));
   }
   return place >= 0 && place <= 1;
 }
@@ -110,6 +111,18 @@ SurfaceLabel FreespaceUnion::LabelOfView(
   return { view, SurfaceKind::Wall, normal };
 }
 
+// Nobody saw the surroundings of a camera: their border is a wall of its view.
+SurfaceLabel FreespaceUnion::OfMaps(SurfaceLabel label) const
+{
+  const int maps = static_cast<int>(this->NumberOfMaps);
+  if (label.view >= maps)
+  {
+    label.view = this->SurroundedView[label.view - maps];
+    label.kind = SurfaceKind::Wall;
+  }
+  return label;
+}
+
 SurfaceLabel FreespaceUnion::Label(
   const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
 {
@@ -145,7 +158,7 @@ SurfaceLabel FreespaceUnion::Label(
     label.normal =
       isBorder ? this->Views[view]->WallNormal(free, matter) : front.gradient.normalized();
   }
-  return label;
+  return this->OfMaps(label);
 }
 
 }

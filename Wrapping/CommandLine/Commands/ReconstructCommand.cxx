@@ -116,7 +116,7 @@ void AddReconstructCommand(CLI::App& program, Session& session)
     "Make a surface from photographs or a structure-from-motion model: all stages in one");
   AddOptions(*command, *settings);
   command->footer("Example:\n"
-                  "  freespace reconstruct scene.json -o mesh.ply --cells 256 --picture mesh.png\n"
+                  "  freespace reconstruct scene.json -o mesh.ply --picture mesh.png\n"
                   "  freespace reconstruct colmap/sparse/0 -o mesh.ply");
   command->callback(session.Defer([settings, &session]() { Reconstruct(session, *settings); }));
 }
