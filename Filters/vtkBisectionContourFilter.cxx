@@ -161,11 +161,11 @@ void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int
   output->GetFieldData()->AddArray(lattice);
 }
 
-/// Marks the triangles that have a feature beside them: within two cells, as the features' distance asks for
-/// them, or one of the lattice's.
+/// Marks the triangles that have a feature beside them: within a cell as the features' distance asks for it, and
+/// within two of the lattice's.
 void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, double cell)
 {
-  const double reach = std::max(cell, 2 * core.CellSide());
+  const double reach = std::min(2 * cell, core.CellSide());
   const freespace::FeatureGrid grid(core.Features(), reach);
   vtkNew<vtkUnsignedCharArray> supported;
   supported->SetName(freespace::SupportedName);
@@ -292,7 +292,7 @@ bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& p
 
 void vtkBisectionContourFilter::ChooseCells(Task& task, const freespace::Progress& progress)
 {
-  if (this->Cells == 0)
+  if (this->Cells == -1)
   {
     task.options.cells =
       task.core ? task.core->Cells() : freespace::ResolutionOptions().fewestCells;

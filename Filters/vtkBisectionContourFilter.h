@@ -76,13 +76,13 @@ public:
 
   ///@{
   /**
-   * How many cells the lattice has along the longest side of the bounds. Automatic, or 0, takes the cells
+   * How many cells the lattice has along the longest side of the bounds. Automatic, or -1, takes the cells
    * that a vtkFreespaceUnion suggests, or fewer where MemoryLimit asks for it, and 256 for other
    * functions. Default 256.
    */
   vtkSetMacro(Cells, int);
   vtkGetMacro(Cells, int);
-  void SetCellsToAutomatic() { this->SetCells(0); }
+  void SetCellsToAutomatic() { this->SetCells(-1); }
   ///@}
 
   ///@{

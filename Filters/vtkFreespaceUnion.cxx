@@ -457,6 +457,12 @@ vtkIdType vtkFreespaceUnion::GetNumberOfFeaturesBeyond()
   return core ? static_cast<vtkIdType>(core->FeatureRegion().beyond) : 0;
 }
 
+int vtkFreespaceUnion::FindMinimumViews()
+{
+  const auto core = this->GetCore();
+  return core ? core->MinimumViews() : 0;
+}
+
 int vtkFreespaceUnion::GetSuggestedCells()
 {
   const auto core = this->GetCore();

@@ -80,11 +80,14 @@ public:
 
   ///@{
   /**
-   * So many views must agree that a point is free. 1 is the paper. Default 1. More than there are
-   * views is an error.
+   * So many views must agree that a point is free. 1 is the paper. More than there are views is an error.
+   * Automatic, or -1, is 1 or 2, by how often the views contradict each other at features; FindMinimumViews
+   * tells which, after an Update. Default 1.
    */
   vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);
+  void SetMinimumViewsToAutomatic() { this->SetMinimumViews(-1); }
+  int FindMinimumViews();
   ///@}
 
   ///@{

@@ -2,7 +2,7 @@
 #include "Stages/RegionOption.h"
 
 #include <vtkFreespaceUnion.h>
-#include <vtkNew.h>
+#include <vtkSmartPointer.h>
 
 #include <gtest/gtest.h>
 

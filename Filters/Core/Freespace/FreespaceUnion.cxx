@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Freespace/CameraSurroundings.h"
+#include "Freespace/ViewAgreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ void CheckTriangles(const DisparityMap& map)
 
 void FreespaceUnionOptions::Check() const
 {
-  if (this->minimumViews < 1)
+  if (this->minimumViews < 1 && this->minimumViews != AutomaticViews)
   {
     throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
       ", it must be at least 1.");
@@ -107,8 +108,22 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
   const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
   this->Region = MakeRegionHull(features, options.region, options.resolution,
     isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
-    progress.Part(0.8, 1.0));
+    progress.Part(0.8, 0.9));
+  this->ChooseMinimumViews(features, parallelFor, progress.Part(0.9, 1.0));
   this->AddSurroundings(features);
+  progress(1.0);
+}
+
+void FreespaceUnion::ChooseMinimumViews(const std::vector<ViewFeatures>& features,
+  const ParallelFor& parallelFor, const Progress& progress)
+{
+  constexpr double spacings = 2.4; // some cells of the lattice
+  if (this->Options.minimumViews == FreespaceUnionOptions::AutomaticViews)
+  {
+    const int most = std::min(2, std::max(1, static_cast<int>(this->NumberOfMaps)));
+    this->Options.minimumViews = ViewsThatMustAgree(ErrorsOfAgreement(
+      this->Views, features, this->Region.region.box, spacings, most, parallelFor, progress));
+  }
 }
 
 // As often as makes them free by themselves.
@@ -135,7 +150,7 @@ void FreespaceUnion::CheckCount() const
       std::to_string(MostViews) + " can be united.");
   }
   // No point inside the hull could be free. Without any views everything is free anyway.
-  if (count > 0 && static_cast<std::size_t>(minimum) > count)
+  if (count > 0 && minimum > static_cast<int>(count))
   {
     throw Error("The minimum number of views is " + std::to_string(minimum) +
       ", but there are only " + std::to_string(count) + " views.");

@@ -20,7 +20,8 @@ namespace freespace
 struct FreespaceUnionOptions
 {
   int minimumViews = 1; ///< number of views in whose free space a point must lie to be free; >= 1,
-                        ///< at most the number of views; the paper's is 1
+                        ///< at most the number of views; the paper's is 1; or AutomaticViews: 1 or
+                        ///< 2, by how often the views contradict each other at features
   double hullMargin = 0.01; ///< offset of the hull's planes to the outside, as a fraction of the
                             ///< diagonal of the region's box; >= 0, < 10; the paper's is 0; or
                             ///< AutomaticMargin: hullMarginCells counts
@@ -32,6 +33,7 @@ struct FreespaceUnionOptions
                              ///< the distance to the nearest features; in [0, 1); 0: nothing
 
   static constexpr double AutomaticMargin = -1;
+  static constexpr int AutomaticViews = -1;
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -117,6 +119,8 @@ private:
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
   void CheckCount() const;
+  void ChooseMinimumViews(const std::vector<ViewFeatures>& features, const ParallelFor& parallelFor,
+    const Progress& progress);
   void AddSurroundings(const std::vector<ViewFeatures>& features);
   SurfaceLabel OfMaps(SurfaceLabel label) const;
   const ViewOctree& FreeIndex(const Progress& progress = {}) const;

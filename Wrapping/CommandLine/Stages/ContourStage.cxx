@@ -68,8 +68,10 @@ void ContourStage::AddOptions(CLI::App& command)
     ->check(CLI::Range(0.0, 10.0))
     ->group("Surface");
   command
-    .add_option("--min-views", this->MinimumViews, "Views that must agree that a point is free")
-    ->check(Positive())
+    .add_option("--min-views", this->MinimumViews,
+      "Views that must agree that a point is free; auto: 1, or 2 where they contradict each other")
+    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
+    ->type_name("auto|INT")
     ->capture_default_str()
     ->group("Surface");
   command
@@ -119,12 +121,12 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
   this->Region.SetUp(phi.Get());
-  const int cells = this->Cells == "auto" ? 0 : std::stoi(this->Cells);
+  const int cells = this->Cells == "auto" ? -1 : std::stoi(this->Cells);
   // As thick as it is where the lattice is chosen, too.
   phi->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
       : cells > 0 ? FreespaceUnionOptions().hullMarginCells / cells
                   : FreespaceUnionOptions::AutomaticMargin);
-  phi->SetMinimumViews(this->MinimumViews);
+  phi->SetMinimumViews(this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews : std::stoi(this->MinimumViews));
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
   contour->SetCells(cells);
@@ -146,7 +148,9 @@ void ContourStage::Choose(Session& session, vtkBisectionContourFilter* contour) 
   std::ostringstream side;
   side.precision(3);
   side << longest / cells;
-  session.Log(RegionOption::Found(phi) + "; " + std::to_string(cells) + " cells of " + side.str());
+  const int views = phi->FindMinimumViews();
+  session.Log(RegionOption::Found(phi) + "; " + std::to_string(cells) + " cells of " + side.str() +
+    (views == 1 ? "; 1 view" : "; " + std::to_string(views) + " views") + " to make free");
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(

@@ -56,7 +56,7 @@ private:
   std::string Cells = "auto";
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
   double HullMargin = -1;  // below 0: somewhat more than a cell
-  int MinimumViews = 1;
+  std::string MinimumViews = "auto";
   bool NotSharp = false;
   double Simplify = 0.0;
   std::string Crumbs = "drop";
