@@ -10,17 +10,17 @@ namespace freespace
 
 struct TextureAtlasOptions
 {
-  double texel = 0;   ///< side of a texel on the surface, refused where it would not do; 0 takes the
-                      ///< pixels of the photographs, or larger ones
+  double texel = 0;   ///< side of a texel on the surface, an error if it does not fit; 0: the size of
+                      ///< the images' pixels on the surface, or larger
   int largest = 8192; ///< side of the atlas, texels
-  int gutter = 2;     ///< texels around each chart that repeat its rim
+  int gutter = 2;     ///< texels around each chart that repeat its border
   Eigen::Vector3d unseen = Eigen::Vector3d(178, 178, 178); ///< red, green, blue
 
   /// Throws Error when a value is out of its range.
   void Check() const;
 };
 
-/// A surface with its colours in an image. Points are repeated for each chart that they are in.
+/// A surface with a texture image. Points are duplicated for each chart that contains them.
 struct TextureAtlas
 {
   std::vector<int> source;                   ///< per point: its index in the mesh
@@ -33,9 +33,9 @@ struct TextureAtlas
   double texel = 0; ///< side of a texel on the surface, before a chart is projected
 };
 
-/// Cuts the surface into charts, which are seen along an axis of space without folding over and at no
-/// more than 66 degrees, packs them into an image and colours it. Triangles that no photograph sees, nor
-/// their neighbours, share one texel; in a chart, what is not seen takes the colours around it.
+/// Cuts the surface into charts (see ChartCutter), packs them into an image and colours it. Triangles far
+/// from any triangle that an image sees share one texel; unseen texels of a chart take the colours around
+/// them.
 TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
   const TextureAtlasOptions& options = {}, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = {});
