@@ -1,36 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#ifndef freespace_ViewDependentTextureShader_h
-#define freespace_ViewDependentTextureShader_h
-
-namespace freespace
-{
-
-constexpr int ShaderMaximumViews = 64;
-
-/// The mapper draws the surface twice. First its geometry, into a texture of its own: in each sample
-/// the position, relative to an origin near the surface, and the facet's normal, folded into a number
-/// above 0. This replaces VTK's lighting.
-constexpr const char* SurfaceGeometryDeclaration = R"(
-in vec3 surfacePosition;
-
-// On the octahedron |x| + |y| + |z| = 1, whose lower half is folded outwards over the upper one.
-float foldedNormal(vec3 normal)
-{
-  normal /= abs(normal.x) + abs(normal.y) + abs(normal.z);
-  vec2 sides = vec2(normal.x < 0.0 ? -1.0 : 1.0, normal.y < 0.0 ? -1.0 : 1.0);
-  vec2 folded = normal.z < 0.0 ? (1.0 - abs(normal.yx)) * sides : normal.xy;
-  vec2 steps = floor((folded * 0.5 + 0.5) * 2047.0 + 0.5);
-  return 1.0 + steps.x * 2048.0 + steps.y;
-}
-)";
-
-constexpr const char* SurfaceGeometryOutput =
-  "gl_FragData[0] = vec4(surfacePosition, foldedNormal(cross(surfaceDx, surfaceDy)));\n";
-
-/// Then a rectangle over the picture, whose fragments are coloured: on a fine mesh that costs a
-/// fraction of colouring the fragments of each triangle. One layer of the texture arrays belongs to each view; its
-/// first texel is the photograph's top left pixel. BLENDED_VIEWS is to be defined before.
-constexpr const char* ViewDependentTextureShader = R"(
+// Colours a rectangle over the image from the geometry of the surface. BLENDED_VIEWS must be defined.
 in vec2 texCoord;
 uniform sampler2DMS geometry;
 uniform int geometrySamples;
@@ -262,8 +230,3 @@ void main()
   vec4 point = vec4(first.xyz, 1.0);
   gl_FragDepth = dot(clipDepth, point) / dot(clipScale, point) * 0.5 + 0.5;
 }
-)";
-
-}
-
-#endif
