@@ -36,7 +36,7 @@
 
 vtkStandardNewMacro(vtkSurfacePicture);
 
-// The window and what is in it, made at the first picture.
+// The window and its content, created for the first image.
 struct vtkSurfacePicture::Stage
 {
   std::optional<freespace::Camera> view;
@@ -44,6 +44,10 @@ struct vtkSurfacePicture::Stage
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkActor> actor;
   vtkNew<vtkPolyDataMapper> greyMapper;
+
+  void MakeWindow();
+  void ShowSurface(vtkPolyData* surface, vtkPolyDataMapper* givenMapper);
+  vtkSmartPointer<vtkUnsignedCharArray> ReadPixels(int width, int height, bool outlines);
 };
 
 namespace
@@ -92,7 +96,7 @@ bool HasColours(vtkDataSetAttributes* attributes)
   return colours && colours->GetNumberOfComponents() >= 3;
 }
 
-// From that direction, as near as lets every point in, with a small margin.
+// A camera in this direction, as close as possible with all points in the image, with a small margin.
 Camera CameraAround(vtkPolyData* surface, double azimuth, double elevation, const int size[2])
 {
   const double halfAngle = vtkMath::RadiansFromDegrees(15.0);
@@ -115,10 +119,10 @@ Camera CameraAround(vtkPolyData* surface, double azimuth, double elevation, cons
   return FramePoints(camera, points);
 }
 
-// Darkens the near side of each jump in depth, so that blocks stand out from a board of their tone.
-// What the depth buffer holds is affine in 1 / depth, and so over the image of a plane: unlike
-// depth, its second difference does not see a plane however steep, and a jump is told by a fraction
-// of 1 / depth.
+// Darkens the near side of each depth discontinuity, so that an object stands out from a background of
+// the same colour. The depth buffer is affine in 1 / depth and therefore over the image of a plane: its
+// second difference is zero on a plane however steep, unlike that of depth, and a discontinuity is
+// measured as a fraction of 1 / depth.
 void DrawOutlines(
   const float* depths, const double range[2], int width, int height, unsigned char* pixels)
 {
@@ -173,6 +177,54 @@ void Average(const unsigned char* fine, int samples, int width, int height, unsi
   }
 }
 
+}
+
+void vtkSurfacePicture::Stage::MakeWindow()
+{
+  if (!this->window)
+  {
+    this->window = vtkSmartPointer<vtkRenderWindow>::New();
+    this->window->SetOffScreenRendering(1);
+    this->window->AddRenderer(this->renderer);
+    this->renderer->AddActor(this->actor);
+    SetUpLights(this->renderer);
+    SetUpGreyLook(this->actor);
+  }
+}
+
+// Without a mapper of its own the surface is grey and lit.
+void vtkSurfacePicture::Stage::ShowSurface(vtkPolyData* surface, vtkPolyDataMapper* givenMapper)
+{
+  vtkPolyDataMapper* mapper = givenMapper ? givenMapper : this->greyMapper.Get();
+  if (mapper->GetInput() != surface)
+  {
+    mapper->SetInputData(surface);
+  }
+  this->greyMapper->SetScalarVisibility(
+    HasColours(surface->GetPointData()) || HasColours(surface->GetCellData()));
+  this->actor->SetMapper(mapper);
+  this->actor->GetProperty()->SetLighting(!givenMapper);
+}
+
+// Renders the window and returns its pixels; null when it has none.
+vtkSmartPointer<vtkUnsignedCharArray> vtkSurfacePicture::Stage::ReadPixels(
+  int width, int height, bool outlines)
+{
+  this->window->Render();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  this->window->GetPixelData(0, 0, width - 1, height - 1, 1, pixels);
+  if (pixels->GetNumberOfTuples() != vtkIdType(width) * height)
+  {
+    return nullptr;
+  }
+  if (outlines)
+  {
+    vtkNew<vtkFloatArray> depths;
+    this->window->GetZbufferData(0, 0, width - 1, height - 1, depths);
+    DrawOutlines(depths->GetPointer(0), this->renderer->GetActiveCamera()->GetClippingRange(),
+      width, height, pixels->GetPointer(0));
+  }
+  return pixels;
 }
 
 vtkSurfacePicture::vtkSurfacePicture()
@@ -255,59 +307,34 @@ int vtkSurfacePicture::RequestInformation(
   return 1;
 }
 
-int vtkSurfacePicture::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+bool vtkSurfacePicture::Check(vtkPolyData* surface, int width, int height)
 {
-  vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
-  vtkImageData* picture = vtkImageData::GetData(outputVector);
-  Stage& stage = *this->Shown;
-  const int width = stage.view ? stage.view->width : this->Size[0];
-  const int height = stage.view ? stage.view->height : this->Size[1];
   if (surface->GetNumberOfCells() == 0)
   {
     vtkErrorMacro("There is no surface to make a picture of.");
-    return 0;
+    return false;
   }
   if (!std::isfinite(this->Azimuth) || !std::isfinite(this->Elevation))
   {
     vtkErrorMacro("Azimuth and elevation of a picture must be finite.");
-    return 0;
+    return false;
   }
   if (width < 1 || height < 1 || std::max(width, height) > LargestWindow)
   {
     vtkErrorMacro("A picture of " << width << "x" << height << " pixels cannot be made.");
-    return 0;
+    return false;
   }
-  const int samples = std::min(this->Samples, LargestWindow / std::max(width, height));
+  return true;
+}
 
-  if (!stage.window)
-  {
-    stage.window = vtkSmartPointer<vtkRenderWindow>::New();
-    stage.window->SetOffScreenRendering(1);
-    stage.window->AddRenderer(stage.renderer);
-    stage.renderer->AddActor(stage.actor);
-    SetUpLights(stage.renderer);
-    SetUpGreyLook(stage.actor);
-  }
-  vtkPolyDataMapper* mapper = this->Mapper ? this->Mapper.Get() : stage.greyMapper.Get();
-  if (mapper->GetInput() != surface)
-  {
-    mapper->SetInputData(surface);
-  }
-  stage.greyMapper->SetScalarVisibility(
-    HasColours(surface->GetPointData()) || HasColours(surface->GetCellData()));
-  stage.actor->SetMapper(mapper);
-  stage.actor->GetProperty()->SetLighting(!this->Mapper);
-  stage.renderer->SetBackground(this->Background);
-  stage.window->SetMultiSamples(0);
-  stage.window->SetSize(samples * width, samples * height);
-
-  vtkCamera* camera = stage.renderer->GetActiveCamera();
+void vtkSurfacePicture::PlaceCamera(vtkPolyData* surface, int width, int height)
+{
+  vtkCamera* camera = this->Shown->renderer->GetActiveCamera();
   const std::optional<freespace::Camera> viewpoint =
     this->UseViewpoint ? freespace::ViewpointOf(surface) : std::nullopt;
-  if (stage.view)
+  if (this->Shown->view)
   {
-    freespace::ApplyCamera(*stage.view, camera);
+    freespace::ApplyCamera(*this->Shown->view, camera);
   }
   else
   {
@@ -316,22 +343,33 @@ int vtkSurfacePicture::RequestData(
         : CameraAround(surface, this->Azimuth, this->Elevation, this->Size),
       camera);
   }
-  stage.renderer->ResetCameraClippingRange();
-  stage.window->Render();
+  this->Shown->renderer->ResetCameraClippingRange();
+}
 
-  vtkNew<vtkUnsignedCharArray> fine;
-  stage.window->GetPixelData(0, 0, samples * width - 1, samples * height - 1, 1, fine);
-  if (fine->GetNumberOfTuples() != vtkIdType(samples) * samples * width * height)
+int vtkSurfacePicture::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
+  vtkImageData* picture = vtkImageData::GetData(outputVector);
+  Stage& stage = *this->Shown;
+  const int width = stage.view ? stage.view->width : this->Size[0];
+  const int height = stage.view ? stage.view->height : this->Size[1];
+  if (!this->Check(surface, width, height))
+  {
+    return 0;
+  }
+  const int samples = std::min(this->Samples, LargestWindow / std::max(width, height));
+  stage.MakeWindow();
+  stage.ShowSurface(surface, this->Mapper);
+  stage.renderer->SetBackground(this->Background);
+  stage.window->SetMultiSamples(0);
+  stage.window->SetSize(samples * width, samples * height);
+  this->PlaceCamera(surface, width, height);
+  const auto fine = stage.ReadPixels(samples * width, samples * height, !this->Mapper);
+  if (!fine)
   {
     vtkErrorMacro("The render window gave no picture.");
     return 0;
-  }
-  if (!this->Mapper)
-  {
-    vtkNew<vtkFloatArray> depths;
-    stage.window->GetZbufferData(0, 0, samples * width - 1, samples * height - 1, depths);
-    DrawOutlines(depths->GetPointer(0), camera->GetClippingRange(), samples * width,
-      samples * height, fine->GetPointer(0));
   }
   picture->SetExtent(0, width - 1, 0, height - 1, 0, 0);
   picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -346,7 +384,7 @@ int vtkSurfacePicture::WritePNG(const std::string& fileName)
   vtkImageData* picture = this->GetOutput();
   if (picture->GetNumberOfPoints() == 0)
   {
-    return 0; // told by Update
+    return 0; // Update has reported it
   }
   try
   {

@@ -130,6 +130,9 @@ private:
   vtkSurfacePicture(const vtkSurfacePicture&) = delete;
   void operator=(const vtkSurfacePicture&) = delete;
 
+  bool Check(vtkPolyData* surface, int width, int height);
+  void PlaceCamera(vtkPolyData* surface, int width, int height);
+
   struct Stage;
   std::unique_ptr<Stage> Shown;
 };
