@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Freespace/FeatureHull.h"
 
+#include "Common/Octant.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
@@ -253,18 +255,12 @@ int FeatureHull::NearestPlane(const Vector3d& point) const
       std::iota(this->Nodes[0].planes.begin(), this->Nodes[0].planes.end(), 0);
       this->Split(0, this->Box, 0);
     });
-  Vector3d low = this->Box.min(), size = this->Box.sizes();
+  Eigen::AlignedBox3d box = this->Box;
   int node = 0;
   while (this->Nodes[node].first >= 0)
   {
-    size *= 0.5;
-    int child = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const bool upper = point[axis] >= low[axis] + size[axis];
-      low[axis] += upper ? size[axis] : 0.0;
-      child |= upper << axis;
-    }
+    const int child = OctantOf(box, point);
+    box = Octant(box, child);
     node = this->Nodes[node].first + child;
   }
   const std::vector<int>& planes = this->Nodes[node].planes;
@@ -284,12 +280,9 @@ void FeatureHull::Split(int node, const Eigen::AlignedBox3d& box, int depth) con
   this->Nodes[node].first = first;
   this->Nodes.resize(first + 8);
   const std::vector<int> planes = std::move(this->Nodes[node].planes);
-  const Vector3d half = 0.5 * box.sizes();
   for (int child = 0; child < 8; ++child)
   {
-    const Vector3d low =
-      box.min() + Vector3d(child & 1, child >> 1 & 1, child >> 2 & 1).cwiseProduct(half);
-    const Eigen::AlignedBox3d part(low, low + half);
+    const Eigen::AlignedBox3d part = Octant(box, child);
     this->Nodes[first + child].planes = this->Nearest(part, planes);
     this->Split(first + child, part, depth + 1);
   }

@@ -4,6 +4,7 @@
 #include "Calibration/BoardImages.h"
 #include "Common/Error.h"
 #include "Common/ForEach.h"
+#include "Common/Median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,9 +136,7 @@ double CameraCalibration::Deviation(const Fit& fit)
   {
     all.insert(all.end(), errors.begin(), errors.end());
   }
-  std::nth_element(
-    all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-  return all[all.size() / 2] / 1.177;
+  return Median(std::move(all)) / 1.177;
 }
 
 // Calibrates and drops the corners that do not fit, until all do.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Matching/DisparityPrior.h"
 
+#include "Common/Median.h"
+
 #include <algorithm>
 
 namespace freespace
@@ -23,9 +25,7 @@ DisparityPrior::DisparityPrior(
   }
   for (std::vector<double>& cell : cells)
   {
-    const auto middle = cell.begin() + cell.size() / 2;
-    std::nth_element(cell.begin(), middle, cell.end());
-    this->Disparity.push_back(cell.empty() ? 0 : *middle);
+    this->Disparity.push_back(cell.empty() ? 0 : Median(std::move(cell)));
   }
   this->SpreadToEmptyCells();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Matching/RunFitting.h"
 
+#include "Common/Median.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -217,9 +219,8 @@ private:
     {
       return least;
     }
-    const auto middle = residuals.begin() + residuals.size() / 2;
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    return std::min(this->Options.tolerance, std::max(least, factor * *middle));
+    const double median = Median(std::move(residuals));
+    return std::min(this->Options.tolerance, std::max(least, factor * median));
   }
 
   // An edge nearly parallel to the epipolar line magnifies the error of its disparity. It has to fit

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/ImageNeighborhoods.h"
 
+#include "Common/Median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -19,13 +21,6 @@ constexpr std::size_t MostNeighbors = 16;
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-double Median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Eigen::Vector3d Axis(const Camera& camera)

@@ -2,6 +2,7 @@
 #include "SparseModel/SparseViews.h"
 
 #include "Common/Error.h"
+#include "Common/Median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,9 +113,7 @@ private:
     {
       return 0;
     }
-    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-    std::nth_element(known.begin(), middle, known.end());
-    return std::min(*middle, this->Options.minimumAngle * radian);
+    return std::min(Median(std::move(known)), this->Options.minimumAngle * radian);
   }
 
   const Eigen::Vector3d& Position(std::size_t point) const

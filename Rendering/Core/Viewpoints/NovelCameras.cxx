@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Viewpoints/NovelCameras.h"
 
+#include "Common/Median.h"
 #include "Viewpoints/CommonUp.h"
 #include "Viewpoints/FramePoints.h"
 #include "Viewpoints/LookAt.h"
@@ -176,9 +177,7 @@ Eigen::Vector3d MedianPoint(const std::vector<Eigen::Vector3d>& points)
     }
     if (!values.empty())
     {
-      const auto half = values.begin() + values.size() / 2;
-      std::nth_element(values.begin(), half, values.end());
-      middle[axis] = *half;
+      middle[axis] = Median(std::move(values));
     }
   }
   return middle;

@@ -2,6 +2,7 @@
 #include "Report/TruthComparison.h"
 
 #include "Common/Error.h"
+#include "Common/Median.h"
 #include "Freespace/FeatureHull.h"
 #include "PhotographBlocks.h"
 #include "Texture/DisparityImage.h"
@@ -73,15 +74,9 @@ void AddHits(const TriangleMesh& surface, const TriangleMesh& truth, const Camer
   }
 }
 
-double Median(std::vector<double> values)
+double MedianOrNaN(std::vector<double> values)
 {
-  if (values.empty())
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const auto half = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(std::move(values));
 }
 
 vtkSmartPointer<vtkPolyData> PolyDataFromMesh(const TriangleMesh& mesh)
@@ -166,7 +161,7 @@ void SetRayFigures(const std::vector<Hit>& hits, TruthFigures& figures)
     }
   }
   figures.covered = double(errors.size()) / hits.size();
-  figures.medianError = Median(errors);
+  figures.medianError = MedianOrNaN(errors);
 }
 
 }
@@ -205,7 +200,7 @@ TruthFigures CompareWithTruth(vtkPolyData* surface, vtkPolyData* truth,
   }
   TruthFigures figures;
   figures.rays = hits.size();
-  figures.medianDepth = Median(depths);
+  figures.medianDepth = MedianOrNaN(depths);
   figures.limits = { 0.001 * figures.medianDepth, 0.002 * figures.medianDepth,
     0.005 * figures.medianDepth };
   SetRayFigures(hits, figures);
