@@ -29,7 +29,7 @@ class TestMemoryLimit(unittest.TestCase):
                               timeout=300)
 
     def test_pieces_are_the_whole(self):
-        for options in ((), ('--no-sharp',)):
+        for options in (('--no-fit',), ('--no-fit', '--no-sharp')):  # pieces are not fitted
             with self.subTest(options=options):
                 for name, limit in (('whole.ply', 0), ('pieces.ply', 3)):
                     result = self.run_program('contour', 'maps.vtm', '--cells', 200, '--memory-limit', limit,

@@ -60,7 +60,7 @@ void Contour(Session& session, const Settings& settings)
     {
       if (ranks.Rank() == 0)
       {
-        const auto surface = settings.contour.Join(session, pieces);
+        const auto surface = settings.contour.Join(session, maps, pieces);
         ContourStage::GiveViewpoint(filter, maps, surface);
         WriteSurface(session, surface, settings.output);
       }

@@ -11,6 +11,7 @@
 
 #include <vtkAppendPiecesFilter.h>
 #include <vtkBisectionContourFilter.h>
+#include <vtkFitSurfaceFilter.h>
 #include <vtkFreespaceUnion.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -79,6 +80,12 @@ void ContourStage::AddOptions(CLI::App& command)
       "Do not rebuild sharp edges and corners between the lattice's vertices")
     ->group("Surface");
   command
+    .add_flag("--no-fit", this->NotFitted,
+      "Leave the surface's vertices where the union of the free spaces has them: do not smooth it "
+      "and "
+      "fit it to all features")
+    ->group("Surface");
+  command
     .add_option("--simplify", this->Simplify,
       "Leave out vertices where the surface is flat; it moves by this length at most; 0: none")
     ->check(NonNegative())
@@ -102,7 +109,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
 {
   const auto contour = this->MakeFilter(maps);
   this->Choose(session, contour);
-  const auto surface = this->Join(session, { this->RunPiece(session, contour, 0, 1) });
+  const auto surface = this->Join(session, maps, { this->RunPiece(session, contour, 0, 1) });
   GiveViewpoint(contour, maps, surface);
   return surface;
 }
@@ -197,8 +204,8 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
   return true;
 }
 
-vtkSmartPointer<vtkPolyData> ContourStage::Join(
-  Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+vtkSmartPointer<vtkPolyData> ContourStage::Join(Session& session, vtkMultiBlockDataSet* maps,
+  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
 {
   vtkSmartPointer<vtkPolyData> surface = pieces.front();
   if (pieces.size() > 1)
@@ -215,6 +222,14 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(
   }
   session.Log("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
     std::to_string(surface->GetNumberOfCells()) + " triangles");
+  if (!this->NotFitted)
+  {
+    vtkNew<vtkFitSurfaceFilter> fit;
+    fit->SetInputData(0, surface);
+    fit->SetInputDataObject(1, maps);
+    session.Run(fit, "fit");
+    surface = fit->GetOutput();
+  }
   if (this->Simplify > 0)
   {
     vtkNew<vtkSimplifySurfaceFilter> simplify;

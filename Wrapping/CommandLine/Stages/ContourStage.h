@@ -20,7 +20,7 @@ namespace freespace
 
 class Session;
 
-/// disparity maps -> surface: vtkFreespaceUnion, vtkBisectionContourFilter.
+/// disparity maps -> surface: vtkFreespaceUnion, vtkBisectionContourFilter, vtkFitSurfaceFilter.
 ///
 /// Has the options that its own command and `reconstruct` share. Run throws Error when it fails.
 class ContourStage
@@ -44,8 +44,8 @@ public:
   /// One of the pieces that Join makes the same surface of.
   vtkSmartPointer<vtkPolyData> RunPiece(
     Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const;
-  vtkSmartPointer<vtkPolyData> Join(
-    Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
+  vtkSmartPointer<vtkPolyData> Join(Session& session, vtkMultiBlockDataSet* maps,
+    const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
 
   /// Gives the surface a viewpoint (Output/Viewpoint.h), by the features in the region.
   static void GiveViewpoint(
@@ -58,6 +58,7 @@ private:
   double HullMargin = -1;  // below 0: somewhat more than a cell
   std::string MinimumViews = "auto";
   bool NotSharp = false;
+  bool NotFitted = false;
   double Simplify = 0.0;
   std::string Crumbs = "drop";
   bool Observed = false;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_NormalFilter_h
+#define freespace_NormalFilter_h
+
+#include "Common/ParallelFor.h"
+#include "Mesh/MeshEdges.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace freespace
+{
+
+/// How the normals of a mesh are smoothed.
+struct NormalFilterOptions
+{
+  int iterations = 14; ///< each mixes a triangle's normal with those beside it; >= 0
+  double deviation =
+    0.35; ///< normals that differ by more than about two of it do not mix: the length
+          ///< of the difference of unit normals; > 0
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// The unit normals of triangles (zero without area) and their areas.
+void TriangleNormals(const std::vector<Eigen::Vector3d>& points,
+  const std::vector<std::array<std::int32_t, 3>>& triangles, std::vector<Eigen::Vector3d>& normals,
+  std::vector<double>& areas, const ParallelFor& parallelFor = SerialFor);
+
+/// Smooths the normals of a mesh, but not over its sharp edges: bilateral filtering in the manner of
+/// Zheng, Fu, Au and Tai, "Bilateral Normal Filtering for Mesh Denoising" (TVCG 2011). How much two
+/// neighbours mix follows from the difference of normals that are smoothed once more (a joint bilateral
+/// filter), which noise of single triangles does not reach.
+void FilterNormals(std::vector<Eigen::Vector3d>& normals, const std::vector<double>& areas,
+  const MeshEdges& edges, const NormalFilterOptions& options,
+  const ParallelFor& parallelFor = SerialFor);
+
+}
+
+#endif

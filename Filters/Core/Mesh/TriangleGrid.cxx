@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/TriangleGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freespace
+{
+
+using Eigen::Vector3d;
+
+// By the region of the plane that the point projects to (Ericson, "Real-Time Collision Detection",
+// section 5.1.5).
+Vector3d NearestOnTriangle(
+  const Vector3d& point, const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+  const Vector3d ab = b - a, ac = c - a, ap = point - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0)
+  {
+    return { 1, 0, 0 };
+  }
+  const Vector3d bp = point - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3)
+  {
+    return { 0, 1, 0 };
+  }
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0)
+  {
+    const double v = d1 / (d1 - d3);
+    return { 1 - v, v, 0 };
+  }
+  const Vector3d cp = point - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6)
+  {
+    return { 0, 0, 1 };
+  }
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0)
+  {
+    const double w = d2 / (d2 - d6);
+    return { 1 - w, 0, w };
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+  {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return { 0, 1 - w, w };
+  }
+  const double sum = va + vb + vc;
+  return { va / sum, vb / sum, vc / sum };
+}
+
+TriangleGrid::TriangleGrid(
+  const std::vector<Vector3d>& points, const Triangles& triangles, double cell)
+  : Points(points)
+  , Corners(triangles)
+  , Cell(cell)
+{
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points)
+  {
+    box.extend(point);
+  }
+  if (!box.isEmpty())
+  {
+    this->Low = box.min();
+  }
+  while (std::size_t(1) << this->Bits < 2 * triangles.size() + 1)
+  {
+    ++this->Bits;
+  }
+  const auto visit = [&](auto&& body)
+  {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+    {
+      Eigen::AlignedBox3d around;
+      for (const int corner : triangles[t])
+      {
+        around.extend(points[corner]);
+      }
+      const Index low = this->CellOf(around.min()), high = this->CellOf(around.max());
+      for (Index at = low; at.z() <= high.z(); ++at.z())
+      {
+        for (at.y() = low.y(); at.y() <= high.y(); ++at.y())
+        {
+          for (at.x() = low.x(); at.x() <= high.x(); ++at.x())
+          {
+            body(this->KeyOf(at), static_cast<std::int32_t>(t));
+          }
+        }
+      }
+    }
+  };
+  this->Begin.assign((std::size_t(1) << this->Bits) + 2, 0);
+  visit([&](std::uint64_t key, std::int32_t) { ++this->Begin[key + 2]; });
+  for (std::size_t i = 2; i < this->Begin.size(); ++i)
+  {
+    this->Begin[i] += this->Begin[i - 1];
+  }
+  this->List.resize(this->Begin.back());
+  visit([&](std::uint64_t key, std::int32_t t) { this->List[this->Begin[key + 1]++] = t; });
+}
+
+TriangleGrid::Index TriangleGrid::CellOf(const Vector3d& point) const
+{
+  return ((point - this->Low) / this->Cell).array().floor().cast<std::int64_t>();
+}
+
+// Cells that share a place of the table cost time only.
+std::uint64_t TriangleGrid::KeyOf(const Index& cell) const
+{
+  const std::uint64_t mixed = static_cast<std::uint64_t>(cell.x()) * 0x9e3779b97f4a7c15u +
+    static_cast<std::uint64_t>(cell.y()) * 0xc2b2ae3d27d4eb4fu +
+    static_cast<std::uint64_t>(cell.z()) * 0x165667b19e3779f9u;
+  return this->Bits == 0 ? 0 : (mixed ^ mixed >> 29) * 0xbf58476d1ce4e5b9u >> (64 - this->Bits);
+}
+
+void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double reach,
+  TrianglePlace& place, double& distance) const
+{
+  const Index low = this->CellOf(point - Vector3d::Constant(reach));
+  const Index high = this->CellOf(point + Vector3d::Constant(reach));
+  for (Index at = low; at.z() <= high.z(); ++at.z())
+  {
+    for (at.y() = low.y(); at.y() <= high.y(); ++at.y())
+    {
+      for (at.x() = low.x(); at.x() <= high.x(); ++at.x())
+      {
+        const std::uint64_t key = this->KeyOf(at);
+        for (std::uint32_t i = this->Begin[key]; i < this->Begin[key + 1]; ++i)
+        {
+          const int t = this->List[i];
+          const Vector3d &a = this->Points[this->Corners[t][0]],
+                         &b = this->Points[this->Corners[t][1]],
+                         &c = this->Points[this->Corners[t][2]];
+          if (direction.dot((b - a).cross(c - a)) >= 0)
+          {
+            continue;
+          }
+          const Vector3d weights = NearestOnTriangle(point, a, b, c);
+          const double found = (weights[0] * a + weights[1] * b + weights[2] * c - point).norm();
+          if (found < distance || (found == distance && t < place.triangle))
+          {
+            distance = found;
+            place = { t, weights };
+          }
+        }
+      }
+    }
+  }
+}
+
+TrianglePlace TriangleGrid::Nearest(
+  const Vector3d& point, const Vector3d& direction, double reach) const
+{
+  TrianglePlace place;
+  if (!point.allFinite())
+  {
+    return place;
+  }
+  double distance = reach;
+  // Mostly it is very near.
+  const double near = 0.25 * this->Cell;
+  if (near < reach)
+  {
+    this->Look(point, direction, near, place, distance);
+  }
+  if (place.triangle < 0 || distance > near)
+  {
+    this->Look(point, direction, distance, place, distance);
+  }
+  return place;
+}
+
+}

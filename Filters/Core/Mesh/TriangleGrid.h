@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_TriangleGrid_h
+#define freespace_TriangleGrid_h
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace freespace
+{
+
+/// A place on a triangle: the weights of its corners.
+struct TrianglePlace
+{
+  int triangle = -1; ///< -1: none
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+};
+
+/// The weights of the point of a triangle that is nearest to a point.
+Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
+  const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// The triangles of a mesh, found by where they are: in the cells of a grid. Keeps references to both
+/// arrays.
+class TriangleGrid
+{
+public:
+  using Triangles = std::vector<std::array<std::int32_t, 3>>;
+
+  /// Cells should be somewhat larger than the triangles. O(n log n).
+  TriangleGrid(const std::vector<Eigen::Vector3d>& points, const Triangles& triangles, double cell);
+
+  /// The nearest place within a reach on the triangles that face an eye which looks along a direction.
+  TrianglePlace Nearest(
+    const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach) const;
+
+private:
+  using Index = Eigen::Matrix<std::int64_t, 3, 1>;
+  Index CellOf(const Eigen::Vector3d& point) const;
+  std::uint64_t KeyOf(const Index& cell) const;
+  void Look(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach,
+    TrianglePlace& place, double& distance) const;
+
+  const std::vector<Eigen::Vector3d>& Points;
+  const Triangles& Corners;
+  double Cell;
+  Eigen::Vector3d Low = Eigen::Vector3d::Zero();
+  int Bits = 0;                     // of the table's size
+  std::vector<std::uint32_t> Begin; // per place of a hash table, of its triangles
+  std::vector<std::int32_t> List;
+};
+
+}
+
+#endif
