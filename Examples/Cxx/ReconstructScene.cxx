@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From photographs to a surface: ReconstructScene SCENE.json OUT.ply [CELLS]
-#include <vtkBisectionContourFilter.h>
 #include <vtkDelaunayDisparityFilter.h>
 #include <vtkEdgeStereoReader.h>
 #include <vtkFeatureSupportFilter.h>
-#include <vtkFreespaceUnion.h>
+#include <vtkFreespaceSurfaceFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkSurfaceWriter.h>
@@ -33,11 +32,12 @@ int main(int argc, char* argv[])
   std::cout << maps->GetOutput()->GetNumberOfBlocks() << " disparity maps, "
             << maps->GetOutput()->GetNumberOfPoints() << " points\n";
 
-  vtkNew<vtkFreespaceUnion> phi;
-  phi->SetMaps(maps->GetOutput());
-  vtkNew<vtkBisectionContourFilter> surface;
-  surface->SetImplicitFunction(phi);
-  surface->SetCells(argc > 3 ? std::atoi(argv[3]) : 256);
+  vtkNew<vtkFreespaceSurfaceFilter> surface;
+  surface->SetInputConnection(maps->GetOutputPort());
+  if (argc > 3)
+  {
+    surface->SetCells(std::atoi(argv[3]));
+  }
   vtkNew<vtkSurfaceWriter> writer;
   writer->SetInputConnection(surface->GetOutputPort());
   writer->SetFileName(argv[2]);

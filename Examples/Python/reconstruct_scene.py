@@ -6,7 +6,7 @@ import sys
 import freespace
 
 
-def main(scene, out, cells=256):
+def main(scene, out, cells=0):
     stereo = freespace.vtkEdgeStereoReader()
     stereo.SetFileName(scene)
     support = freespace.vtkFeatureSupportFilter()
@@ -16,11 +16,9 @@ def main(scene, out, cells=256):
     for name, view in freespace.views(freespace.update(maps)).items():
         print(f"{name}: {len(view['points'])} points, {len(view['triangles'])} triangles")
 
-    phi = freespace.vtkFreespaceUnion()
-    phi.SetMaps(maps.GetOutput())
-    surface = freespace.vtkBisectionContourFilter()
-    surface.SetImplicitFunction(phi)
-    surface.SetCells(int(cells))
+    surface = freespace.vtkFreespaceSurfaceFilter()
+    surface.SetInputConnection(maps.GetOutputPort())
+    surface.SetCells(int(cells))  # 0: as many as show what the features tell
     writer = freespace.vtkSurfaceWriter()
     writer.SetInputConnection(surface.GetOutputPort())
     writer.SetFileName(out)
