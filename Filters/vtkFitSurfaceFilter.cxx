@@ -4,7 +4,7 @@
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
-#include "Mesh/FitSurface.h"
+#include "Mesh/Fit/FitSurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkInformation.h>

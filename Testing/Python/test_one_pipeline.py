@@ -9,6 +9,7 @@ import freespace
 
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = os.environ['FREESPACE_SCENE']
+CELLS = 128  # 0 is the default; a coarse lattice is enough here
 CXX_PIPELINE = os.environ['FREESPACE_CXX_PIPELINE']
 
 
@@ -23,8 +24,9 @@ class TestOnePipeline(unittest.TestCase):
     def test_python_cxx_and_program_write_the_same_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
             names = {name: os.path.join(folder, name + '.ply') for name in ('python', 'cxx', 'program')}
-            subprocess.run([PROGRAM, '-q', 'reconstruct', SCENE, '-o', names['program']], check=True)
-            subprocess.run([CXX_PIPELINE, SCENE, names['cxx']], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([PROGRAM, '-q', 'reconstruct', SCENE, '-o', names['program'], '--cells', str(CELLS)],
+                           check=True)
+            subprocess.run([CXX_PIPELINE, SCENE, names['cxx'], str(CELLS)], check=True, stdout=subprocess.DEVNULL)
             stereo = freespace.vtkEdgeStereoReader()
             stereo.SetFileName(SCENE)
             support = freespace.vtkFeatureSupportFilter()
@@ -33,12 +35,13 @@ class TestOnePipeline(unittest.TestCase):
             maps.SetInputConnection(support.GetOutputPort())
             surface = freespace.vtkFreespaceSurfaceFilter()
             surface.SetInputConnection(maps.GetOutputPort())
+            surface.SetCells(CELLS)
             writer = freespace.vtkSurfaceWriter()
             writer.SetInputConnection(surface.GetOutputPort())
             writer.SetFileName(names['python'])
             freespace.update(writer)
             program = body(names['program'])
-            self.assertGreater(len(program[1]), 1e6)
+            self.assertGreater(len(program[1]), 1e5)
             self.assertEqual(body(names['python']), program)
             self.assertEqual(body(names['cxx']), program)
 

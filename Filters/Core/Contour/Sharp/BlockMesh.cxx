@@ -237,10 +237,10 @@ void BlockMesh::JoinSharp(
   if (this->FindSharpFace(place, sharp, face, sharpFace))
   {
     const SharpVertex& other = SharpOf(sharpFace.other);
-    const bool isBridged = std::any_of(place.bridges.begin(), place.bridges.end(),
-      [&](const Bridge& bridge) { return bridge.cell == own.cell && bridge.face == face; });
+    const bool isLinked = std::any_of(place.links.begin(), place.links.end(),
+      [&](const FaceLink& link) { return link.cell == own.cell && link.face == face; });
     const bool areOwn = own.reach == Reach::Own && other.reach == Reach::Own;
-    if (isBridged || (areOwn && this->IsThroughFace(own.position, other.position, sharpFace)))
+    if (isLinked || (areOwn && this->IsThroughFace(own.position, other.position, sharpFace)))
     {
       last = sharpFace.other;
     }

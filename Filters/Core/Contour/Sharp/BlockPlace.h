@@ -49,7 +49,7 @@ struct JoinedFaces
 
 /// A face of a cell, across which its sharp vertex is joined to that of the adjacent cell by an
 /// edge that does not pass through the face.
-struct Bridge
+struct FaceLink
 {
   std::size_t cell; ///< place in the block's cells
   int face;
@@ -65,7 +65,7 @@ struct BlockPlace
   std::size_t firstTriangle;
   std::vector<JoinedFaces> joined; ///< in the order of their cells
   std::vector<SharpVertex> sharp;  ///< in the order of their cells
-  std::vector<Bridge> bridges;
+  std::vector<FaceLink> links;
   std::vector<SharpOffer> offers;   ///< to any block's cells
   std::vector<SharpOffer> received; ///< to the block's cells
   std::vector<std::int32_t> vertex; ///< of another piece's block: index in the mesh, or -1

@@ -30,7 +30,7 @@ public:
 
   /// Joins sharp vertices also by edges that do not pass through the face between their cells,
   /// where the edge is on the surface and the new triangles intersect nothing.
-  void FindBridges(const Progress& progress, const ParallelFor& parallelFor);
+  void FindFaceLinks(const Progress& progress, const ParallelFor& parallelFor);
 
 private:
   /// Triangles that the mesh may have near some choices: it has those whose conditions hold.
@@ -57,17 +57,17 @@ private:
     int condition;
   };
 
-  /// A vertex or bridge to choose. Of two that exclude each other, the one of greater rank is
+  /// A vertex or link to choose. Of two that exclude each other, the one of greater rank is
   /// dropped.
   struct Choice
   {
     BlockVertex vertex;
-    int face; ///< of a bridge
+    int face; ///< of a link
     std::array<double, 4> rank;
     bool isLost;
   };
 
-  /// The choices by the keys of their vertices and bridges.
+  /// The choices by the keys of their vertices and links.
   using ChoiceIndex = std::unordered_map<std::uint64_t, int>;
 
   void FindLostChoices(std::vector<Choice>& choices, const ChoiceIndex& index,
@@ -100,7 +100,7 @@ private:
   static void AddTriangle(Candidates& candidates, const std::array<std::int32_t, 3>& corners,
     int conditionA, int conditionB = Candidates::Always);
   std::uint64_t KeyOf(const BlockVertex& vertex) const;
-  std::uint64_t BridgeKey(const BlockVertex& lower, int face) const;
+  std::uint64_t FaceLinkKey(const BlockVertex& lower, int face) const;
   bool IsOnSurface(
     const Vector3d& s, const Vector3d& t, const BlockVertex& u, const BlockVertex& v) const;
 
@@ -141,7 +141,7 @@ void SharpVertexJoiner::MoveMeetingVerticesBack(
   }
 }
 
-void SharpVertexJoiner::FindBridges(const Progress& progress, const ParallelFor& parallelFor)
+void SharpVertexJoiner::FindFaceLinks(const Progress& progress, const ParallelFor& parallelFor)
 {
   std::vector<Choice> choices;
   ChoiceIndex index;
@@ -159,7 +159,7 @@ void SharpVertexJoiner::FindBridges(const Progress& progress, const ParallelFor&
         {
           return;
         }
-        index[this->BridgeKey(corners[0], face)] = static_cast<int>(choices.size());
+        index[this->FaceLinkKey(corners[0], face)] = static_cast<int>(choices.size());
         choices.push_back({ corners[0], face, this->RankOf(corners[0], face), false });
       });
   }
@@ -171,9 +171,9 @@ void SharpVertexJoiner::FindBridges(const Progress& progress, const ParallelFor&
     if (!choice.isLost &&
       this->Blocks.FindSharpFace(*choice.vertex.owner, sharp, choice.face, sharpFace))
     {
-      choice.vertex.owner->bridges.push_back(
+      choice.vertex.owner->links.push_back(
         { BlockMesh::SharpOf(choice.vertex).cell, choice.face });
-      sharpFace.other.owner->bridges.push_back(
+      sharpFace.other.owner->links.push_back(
         { BlockMesh::SharpOf(sharpFace.other).cell, choice.face ^ 1 });
     }
   }
@@ -299,7 +299,7 @@ std::array<double, 4> SharpVertexJoiner::RankOf(const BlockVertex& vertex, doubl
 }
 
 // Adds a block's triangles. The choices are vertices outside of their cells, or (with the face
-// added to their key) bridges.
+// added to their key) links.
 void SharpVertexJoiner::AddCandidates(
   const BlockPlace& place, const ChoiceIndex& choices, Candidates& candidates) const
 {
@@ -357,13 +357,13 @@ void SharpVertexJoiner::AddFanTriangle(const BlockPlace& place, std::size_t shar
     {
       const bool isThrough =
         a.isOwn && b.isOwn && this->Blocks.IsThroughFace(a.position, b.position, sharpFace);
-      const auto bridge =
-        choices.find(this->BridgeKey(sharpFace.isUpper ? own : sharpFace.other, face));
+      const auto link =
+        choices.find(this->FaceLinkKey(sharpFace.isUpper ? own : sharpFace.other, face));
       const std::int32_t cornerB = this->AddCorner(candidates, b);
-      if (bridge != choices.end())
+      if (link != choices.end())
       {
-        AddTriangle(candidates, { cornerA, cornerU, cornerV }, Candidates::IfNot(bridge->second));
-        AddTriangle(candidates, { cornerA, cornerU, cornerB }, Candidates::If(bridge->second));
+        AddTriangle(candidates, { cornerA, cornerU, cornerV }, Candidates::IfNot(link->second));
+        AddTriangle(candidates, { cornerA, cornerU, cornerB }, Candidates::If(link->second));
       }
       else
       {
@@ -426,8 +426,8 @@ std::uint64_t SharpVertexJoiner::KeyOf(const BlockVertex& vertex) const
     static_cast<std::uint64_t>(vertex.vertex) << 1;
 }
 
-// The key of the bridge over the upper face of a sharp vertex's cell along the face's axis.
-std::uint64_t SharpVertexJoiner::BridgeKey(const BlockVertex& lower, int face) const
+// The key of the link over the upper face of a sharp vertex's cell along the face's axis.
+std::uint64_t SharpVertexJoiner::FaceLinkKey(const BlockVertex& lower, int face) const
 {
   return this->KeyOf(lower) | static_cast<std::uint64_t>(1 + (face >> 1)) << 60;
 }
@@ -454,7 +454,7 @@ void JoinSharpVertices(
 {
   SharpVertexJoiner joiner(blocks, isSingle);
   joiner.MoveMeetingVerticesBack(progress.Part(0.0, 0.5), parallelFor);
-  joiner.FindBridges(progress.Part(0.5, 1.0), parallelFor);
+  joiner.FindFaceLinks(progress.Part(0.5, 1.0), parallelFor);
 }
 
 }

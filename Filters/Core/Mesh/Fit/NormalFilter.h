@@ -3,7 +3,7 @@
 #define freespace_NormalFilter_h
 
 #include "Common/ParallelFor.h"
-#include "Mesh/MeshEdges.h"
+#include "Mesh/Fit/MeshEdges.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 
 #include "Common/ParallelFor.h"
 #include "Common/Progress.h"
-#include "Mesh/NormalFilter.h"
+#include "Mesh/Fit/NormalFilter.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 
 #include "Common/CancellationFlag.h"
 #include "Common/ParallelFor.h"
-#include "Mesh/MeshEdges.h"
+#include "Mesh/Fit/MeshEdges.h"
 
 #include <Eigen/SparseCore>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/VertexSystem.h"
+#include "Mesh/Fit/VertexSystem.h"
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/MeshEdges.h"
+#include "Mesh/Fit/MeshEdges.h"
 
 #include <algorithm>
 

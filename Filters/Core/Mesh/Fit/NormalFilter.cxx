@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/NormalFilter.h"
+#include "Mesh/Fit/NormalFilter.h"
 
 #include "Common/Error.h"
 

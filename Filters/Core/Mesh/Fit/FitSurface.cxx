@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/FitSurface.h"
+#include "Mesh/Fit/FitSurface.h"
 
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
-#include "Mesh/TriangleGrid.h"
-#include "Mesh/Untangle.h"
-#include "Mesh/VertexSystem.h"
+#include "Mesh/Fit/TriangleGrid.h"
+#include "Mesh/Fit/Untangle.h"
+#include "Mesh/Fit/VertexSystem.h"
 
 #include <Eigen/Eigenvalues>
 

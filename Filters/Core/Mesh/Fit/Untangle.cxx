@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/Untangle.h"
+#include "Mesh/Fit/Untangle.h"
 
 #include "Mesh/TriangleIntersections.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/TriangleGrid.h"
+#include "Mesh/Fit/TriangleGrid.h"
 
 #include <algorithm>
 #include <cmath>
