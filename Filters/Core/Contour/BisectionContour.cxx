@@ -163,7 +163,7 @@ private:
     {
       this->Blocks.places[i].sharp = {};
       this->Blocks.places[i].joined = {};
-      this->Blocks.places[i].bridges = {};
+      this->Blocks.places[i].links = {};
       this->Blocks.places[i].vertex = {};
     }
     ReturnFreeMemory();
