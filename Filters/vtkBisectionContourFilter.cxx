@@ -161,11 +161,11 @@ void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int
   output->GetFieldData()->AddArray(lattice);
 }
 
-/// Marks the triangles that have a feature beside them: within a cell as the features' distance asks for it, and
-/// within two of the lattice's.
+/// Marks the triangles that have a feature beside them: within somewhat more than half of the features' distance,
+/// and within two cells.
 void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, double cell)
 {
-  const double reach = std::min(2 * cell, core.CellSide());
+  const double reach = std::min(2 * cell, 0.6 * core.CellSide());
   const freespace::FeatureGrid grid(core.Features(), reach);
   vtkNew<vtkUnsignedCharArray> supported;
   supported->SetName(freespace::SupportedName);
