@@ -339,14 +339,14 @@ void vtkFreespaceUnion::EvaluateGradient(double x[3], double g[3])
 bool vtkFreespaceUnion::IsPointFree(const double point[3])
 {
   const auto core = this->GetCore();
-  return !core || core->IsFree(Eigen::Vector3d(point));
+  return core && freespace::IsPointFree(*core, Eigen::Vector3d(point));
 }
 
 double vtkFreespaceUnion::FirstBlocked(const double first[3], const double last[3])
 {
   const auto core = this->GetCore();
   return core ? freespace::FirstBlocked(*core, Eigen::Vector3d(first), Eigen::Vector3d(last))
-              : HUGE_VAL;
+              : 0.0;
 }
 
 bool vtkFreespaceUnion::IsSegmentFree(const double first[3], const double last[3])
@@ -357,7 +357,7 @@ bool vtkFreespaceUnion::IsSegmentFree(const double first[3], const double last[3
 bool vtkFreespaceUnion::IsSphereFree(const double center[3], double radius)
 {
   const auto core = this->GetCore();
-  return !core || freespace::IsSphereFree(*core, Eigen::Vector3d(center), radius);
+  return core && freespace::IsSphereFree(*core, Eigen::Vector3d(center), radius);
 }
 
 bool vtkFreespaceUnion::IsBoxFree(const double bounds[6])
@@ -365,7 +365,7 @@ bool vtkFreespaceUnion::IsBoxFree(const double bounds[6])
   const auto core = this->GetCore();
   const Eigen::AlignedBox3d box(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
     Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
-  return !core || freespace::IsBoxFree(*core, box);
+  return core && freespace::IsBoxFree(*core, box);
 }
 
 bool vtkFreespaceUnion::HaveSameSize(vtkIdType size, vtkIdType otherSize)
@@ -382,7 +382,7 @@ bool vtkFreespaceUnion::ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* f
   return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForPoints,
     points->GetNumberOfPoints(), free,
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
-    { free->SetValue(i, !core || core->IsFree(PointOf(points, i))); });
+    { free->SetValue(i, core && freespace::IsPointFree(*core, PointOf(points, i))); });
 }
 
 bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions)
@@ -396,7 +396,7 @@ bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubl
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {
       fractions->SetValue(
-        i, core ? freespace::FirstBlocked(*core, PointOf(first, i), PointOf(last, i)) : HUGE_VAL);
+        i, core ? freespace::FirstBlocked(*core, PointOf(first, i), PointOf(last, i)) : 0.0);
     });
 }
 
@@ -412,7 +412,7 @@ bool vtkFreespaceUnion::AreSpheresFree(
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {
       free->SetValue(
-        i, !core || freespace::IsSphereFree(*core, PointOf(centers, i), radii->GetValue(i)));
+        i, core && freespace::IsSphereFree(*core, PointOf(centers, i), radii->GetValue(i)));
     });
 }
 

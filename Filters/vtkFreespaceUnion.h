@@ -20,8 +20,8 @@
  * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or
  * from a pipeline by SetInputConnection. Features that are not finite are left out, and so are
  * triangles that touch one or a point that is not in front of its camera. Where there is no feature
- * at all, everything is free. A block that is not a map is an error: everything is then free too,
- * and IsValid tells.
+ * at all, everything is free. A block that is not a map is an error: IsValid tells. The function is then
+ * positive everywhere, but queries fail closed: nothing is free. Neither is what is not finite.
  *
  * The inner structures are built at the first evaluation after a change. Evaluation is safe from
  * several threads. Maps that were changed in place are noticed by GetMTime, which every VTK filter

@@ -100,6 +100,11 @@ private:
 
 }
 
+bool IsPointFree(const FreespaceUnion& phi, const Vector3d& point)
+{
+  return point.allFinite() && phi.IsFree(point);
+}
+
 double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vector3d& last)
 {
   if (!first.allFinite() || !last.allFinite())

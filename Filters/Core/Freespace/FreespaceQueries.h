@@ -11,6 +11,9 @@ namespace freespace
 /// tracing". All functions are safe to call from several threads. They fail closed: a number that is
 /// not finite, a negative radius or an empty box is not free.
 
+/// Whether a point lies in free space.
+bool IsPointFree(const FreespaceUnion& phi, const Eigen::Vector3d& point);
+
 /// The first place where a segment is not in free space, as a fraction of its length: 0 when it
 /// begins in matter, infinite when all of it is free. Exact. Matter is closed: a segment that only
 /// touches it is blocked there.
