@@ -3,8 +3,8 @@
 
 #include "Data/ViewBlocks.h"
 #include "Disparity/DelaunayDisparity.h"
+#include "Support/ErrorObserver.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -50,16 +50,6 @@ vtkSmartPointer<vtkMultiBlockDataSet> Blocks(const std::vector<View>& views)
     SetNamedBlock(blocks, static_cast<unsigned int>(i), views[i].name, BlockFromView(views[i]));
   }
   return blocks;
-}
-
-// Keeps the text of a filter's error.
-void ListenToErrors(vtkObject* object, std::string* text)
-{
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(text);
-  command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
-    { static_cast<std::string*>(client)->append(static_cast<const char*>(message)); });
-  object->AddObserver(vtkCommand::ErrorEvent, command);
 }
 
 void ExpectSameMaps(const std::vector<DisparityMap>& a, const std::vector<DisparityMap>& b)
@@ -161,9 +151,7 @@ TEST(DelaunayDisparityFilter, SettingOutOfRangeIsAnError)
   vtkNew<vtkDelaunayDisparityFilter> filter;
   filter->SetInputDataObject(Blocks(MakeViews()));
   filter->SetGreatestDepthRatio(0.5);
-  std::string error;
-  ListenToErrors(filter, &error);
-  filter->Update();
+  const std::string error = ErrorOfUpdate(filter);
   EXPECT_NE(error.find("0 or above 1"), std::string::npos) << error;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
 }
@@ -175,9 +163,7 @@ TEST(DelaunayDisparityFilter, ErrorNamesTheViewAndLeavesNothing)
   views[2].imagePoints.resize(2);
   vtkNew<vtkDelaunayDisparityFilter> filter;
   filter->SetInputDataObject(Blocks(views));
-  std::string error;
-  ListenToErrors(filter, &error);
-  filter->Update();
+  const std::string error = ErrorOfUpdate(filter);
   EXPECT_NE(error.find("'cluster2' has 2 usable features"), std::string::npos) << error;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
 }

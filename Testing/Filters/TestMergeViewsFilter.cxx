@@ -2,6 +2,7 @@
 #include "vtkMergeViewsFilter.h"
 
 #include "Data/ViewBlocks.h"
+#include "Support/ErrorObserver.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -125,7 +126,7 @@ TEST(MergeViewsFilter, EmptyInputAndEmptyViews)
 
 TEST(MergeViewsFilter, BlockThatIsNoView)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  const QuietWarnings quiet;
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, vtkNew<vtkPolyData>());
   vtkNew<vtkMergeViewsFilter> merge;

@@ -2,6 +2,8 @@
 #include "Data/ViewBlocks.h"
 
 #include "Common/Error.h"
+#include "Support/ErrorObserver.h"
+#include "Support/TemporaryFolder.h"
 #include "vtkFeatureSupportFilter.h"
 #include "vtkViewBlocksReader.h"
 #include "vtkViewBlocksWriter.h"
@@ -55,12 +57,6 @@ vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks()
   return blocks;
 }
 
-std::string TemporaryFolder()
-{
-  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
-  return mkdtemp(pattern.data());
-}
-
 void ExpectSame(const DisparityMap& a, const DisparityMap& b)
 {
   EXPECT_EQ(a.name, b.name);
@@ -88,7 +84,8 @@ TEST(ViewBlocks, RoundTripInMemory)
 
 TEST(ViewBlocks, RoundTripOnDisk)
 {
-  const std::string folder = TemporaryFolder();
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   const std::string file = folder + "/maps.vtm";
   for (int pass = 0; pass < 2; ++pass) // the second replaces the first
   {
@@ -105,12 +102,12 @@ TEST(ViewBlocks, RoundTripOnDisk)
   ExpectSame(maps[1], MakeMap(1));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2)
     << "something half-written was left behind";
-  fs::remove_all(folder);
 }
 
 TEST(ViewBlocks, AFolderOfTheSameNameKeepsWhatIsNotItsPart)
 {
-  const std::string folder = TemporaryFolder();
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   fs::create_directories(folder + "/scene/scene_1");
   for (const char* name : { "scene.json", "scene_7.vtp", "scene_3.jpg", "scene_1/picture.jpg" })
   {
@@ -129,12 +126,11 @@ TEST(ViewBlocks, AFolderOfTheSameNameKeepsWhatIsNotItsPart)
   reader->SetFileName(folder + "/scene.vtm");
   reader->Update();
   EXPECT_EQ(MapsFromBlocks(reader->GetOutput()).size(), 2u);
-  fs::remove_all(folder);
 }
 
 TEST(ViewBlocks, UnwritableFolderIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  const QuietWarnings quiet;
   vtkNew<vtkViewBlocksWriter> writer;
   writer->SetInputDataObject(MakeBlocks());
   writer->SetFileName("/nowhere/at/all/maps.vtm");
@@ -143,8 +139,9 @@ TEST(ViewBlocks, UnwritableFolderIsAnError)
 
 TEST(ViewBlocks, TruncatedFileIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
-  const std::string folder = TemporaryFolder();
+  const QuietWarnings quiet;
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   const std::string file = folder + "/maps.vtm";
   vtkNew<vtkViewBlocksWriter> writer;
   writer->SetInputDataObject(MakeBlocks());
@@ -157,7 +154,6 @@ TEST(ViewBlocks, TruncatedFileIsAnError)
   reader->SetFileName(file);
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
-  fs::remove_all(folder);
 }
 
 TEST(ViewBlocks, MissingArrayNamesTheView)

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkBisectionContourFilter.h"
+
+#include "Support/ErrorObserver.h"
+#include "Support/ProgressWatch.h"
+#include "Support/RandomMapBlocks.h"
+#include "vtkFreespaceUnion.h"
+
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkMath.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkSphere.h>
+#include <vtkTransform.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace freespace;
+
+TEST(vtkBisectionContourFilter, ContoursAUnion)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(40);
+  contour->Update();
+  vtkPolyData* output = contour->GetOutput();
+  ASSERT_GT(output->GetNumberOfCells(), 1000);
+  ASSERT_TRUE(output->GetCellData()->GetArray("View"));
+  ASSERT_TRUE(output->GetCellData()->GetArray("Kind"));
+  // The sign changes around the vertices, but for some at sharp edges.
+  double bounds[6];
+  phi->GetBounds(bounds);
+  const double step = 0.01 * (bounds[1] - bounds[0]);
+  int tried = 0, mixed = 0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); i += 7)
+  {
+    int free = 0;
+    for (int j = 0; j < 6; ++j)
+    {
+      double p[3];
+      output->GetPoint(i, p);
+      p[j / 2] += j % 2 ? step : -step;
+      free += phi->EvaluateFunction(p) > 0;
+    }
+    ++tried;
+    mixed += free > 0 && free < 6;
+  }
+  EXPECT_GT(mixed, 0.95 * tried);
+  const vtkIdType before = output->GetNumberOfCells();
+  contour->SetCells(60);
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 1.8 * before);
+  phi->SetHullMargin(0.2);
+  contour->Update();
+  double b[6];
+  phi->GetBounds(b);
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0], 0.02 * (b[1] - b[0]));
+}
+
+TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(40);
+  contour->Update();
+  vtkDataArray* kinds = contour->GetOutput()->GetCellData()->GetArray("Kind");
+  vtkDataArray* supported = contour->GetOutput()->GetCellData()->GetArray("Supported");
+  vtkIdType seen = 0, ofFeatures = 0;
+  for (vtkIdType i = 0; i < kinds->GetNumberOfTuples(); ++i)
+  {
+    seen += kinds->GetTuple1(i) == 0 || supported->GetTuple1(i) == 1;
+    ofFeatures += kinds->GetTuple1(i) == 0;
+  }
+  EXPECT_GT(ofFeatures, 100);
+  EXPECT_GT(seen, ofFeatures);
+  EXPECT_LT(seen, kinds->GetNumberOfTuples());
+  contour->ObservedOnlyOn();
+  contour->Update();
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), seen);
+  contour->SharpEdgesOn();
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), seen);
+}
+
+TEST(vtkBisectionContourFilter, StopsAtOnce)
+{
+  class CountingSphere : public vtkSphere
+  {
+  public:
+    static CountingSphere* New() { return new CountingSphere; }
+    using vtkSphere::EvaluateFunction;
+    double EvaluateFunction(double x[3]) override
+    {
+      ++this->Calls;
+      return this->vtkSphere::EvaluateFunction(x);
+    }
+    int Calls = 0;
+  };
+  vtkNew<CountingSphere> sphere;
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(sphere);
+  contour->SetBounds(-1, 1, -1, 1, -1, 1);
+  contour->SetCells(100);
+  contour->Update();
+  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 1000);
+  const int all = sphere->Calls;
+
+  for (const double when : { 0.01, 0.4 })
+  {
+    ProgressWatch progress(contour, when);
+    int before = 0;
+    progress.AtStop = [&] { before = sphere->Calls; };
+    sphere->Calls = 0;
+    contour->Modified();
+    contour->Update();
+    EXPECT_GE(progress.Last, when);
+    EXPECT_LT(before, all);
+    EXPECT_EQ(sphere->Calls, before);
+    EXPECT_EQ(progress.After, 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    contour->SetAbortExecute(0);
+  }
+}
+
+TEST(vtkBisectionContourFilter, ProgressesSmoothly)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(300);
+  contour->SharpEdgesOn();
+  ProgressWatch progress(contour, 2.0);
+  contour->Update();
+  EXPECT_GT(progress.Steps, 30);
+  EXPECT_TRUE(progress.IsMonotone);
+  EXPECT_LT(progress.Greatest, 0.1);
+  EXPECT_EQ(progress.Last, 1.0);
+}
+
+TEST(vtkBisectionContourFilter, StopsWhileTheUnionIsBuilt)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 20);
+  for (int at = 1; at <= 4; ++at)
+  {
+    vtkNew<vtkFreespaceUnion> phi;
+    phi->SetMaps(maps);
+    vtkNew<vtkBisectionContourFilter> contour;
+    contour->SetImplicitFunction(phi);
+    contour->SetCells(20);
+    vtkNew<ErrorObserver> errors;
+    contour->AddObserver(vtkCommand::ErrorEvent, errors);
+    {
+      Stopper stopper(contour, phi, true, at);
+      contour->EstimateMemory();
+      EXPECT_TRUE(stopper.HasStopped);
+      EXPECT_FALSE(phi->IsBuilt());
+      contour->RemoveObservers(vtkCommand::ProgressEvent);
+    }
+    Stopper stopper(contour, phi, true, at + 1); // the first is the pipeline's own
+    contour->Update();
+    EXPECT_TRUE(stopper.HasStopped);
+    EXPECT_EQ(stopper.After, 0);
+    EXPECT_FALSE(phi->IsBuilt());
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_EQ(errors->Count, 0);
+    contour->Modified();
+    contour->Update();
+    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 100);
+  }
+}
+
+TEST(vtkBisectionContourFilter, ContoursAnyFunction)
+{
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(2);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(sphere);
+  contour->SetBounds(-3, 3, -3, 3, -3, 3);
+  contour->SetCells(30);
+  contour->Update();
+  ASSERT_GT(contour->GetOutput()->GetNumberOfPoints(), 500);
+  for (vtkIdType i = 0; i < contour->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    contour->GetOutput()->GetPoint(i, p);
+    EXPECT_NEAR(vtkMath::Norm(p), 2.0, 0.003);
+  }
+  EXPECT_FALSE(contour->GetOutput()->GetCellData()->GetArray("View"));
+  sphere->SetRadius(1);
+  contour->Update();
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[1], 1.0, 0.01);
+}
+
+TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 3));
+  double b[6];
+  phi->GetBounds(b);
+  vtkNew<vtkTransform> transform;
+  transform->Translate(-5, 0, 0); // maps the world to the function
+  phi->SetTransform(transform);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(30);
+  contour->SetBounds(b[0] + 5, b[1] + 5, b[2], b[3], b[4], b[5]);
+  contour->Update();
+  ASSERT_GT(contour->GetOutput()->GetNumberOfCells(), 500);
+  EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0] + 5, 0.02 * (b[1] - b[0]));
+}
+
+TEST(vtkBisectionContourFilter, TellsWhatIsWrong)
+{
+  vtkNew<vtkBisectionContourFilter> contour;
+  vtkNew<ErrorObserver> errors;
+  errors->Observe(contour);
+  contour->Update();
+  EXPECT_TRUE(errors->Has("There is no implicit function to contour.")) << errors->All;
+  vtkNew<vtkSphere> sphere;
+  contour->SetImplicitFunction(sphere);
+  errors->All.clear();
+  contour->Update(); // no bounds
+  EXPECT_TRUE(errors->Has("The function does not tell its bounds")) << errors->All;
+  contour->SetBounds(-1, 1, -1, 1, -1, 1);
+  contour->SetCells(0);
+  errors->All.clear();
+  contour->Update();
+  EXPECT_TRUE(errors->Has("it must have at least 2")) << errors->All;
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(vtkBisectionContourFilter, RefusesFeaturesWithoutTriangles)
+{
+  const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(maps);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  contour->SetCells(20);
+  vtkNew<ErrorObserver> errors;
+  errors->Observe(contour);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    auto* view = vtkPolyData::SafeDownCast(maps->GetBlock(i));
+    view->SetPolys(nullptr);
+    view->Modified();
+    errors->Last.clear();
+    contour->Update();
+    // One view without triangles is fine, all are not.
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells() > 0, i == 0);
+    EXPECT_EQ(errors->Last.empty(), i == 0) << errors->Last;
+  }
+}
+
+TEST(vtkBisectionContourFilter, RefusesMoreViewsThanThereAre)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  phi->SetMaps(MakeMaps(3, 2));
+  phi->SetMinimumViews(3);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(phi);
+  vtkNew<ErrorObserver> errors, ignored;
+  phi->AddObserver(vtkCommand::ErrorEvent, errors);
+  ignored->Observe(contour);
+  contour->Update();
+  EXPECT_NE(errors->Last.find("only 2 views"), std::string::npos) << errors->Last;
+  EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+}
