@@ -7,6 +7,7 @@
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
+#include "Refinement/CameraRefinement.h"
 #include "Scene/EveryImage.h"
 #include "Scene/SceneClusters.h"
 #include "Stereo/EdgeStereo.h"
@@ -95,20 +96,36 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
   return static_cast<long long>(time);
 }
 
+// The cameras of the scene's images, by its edges where that is wanted. `asGiven` has the clusters that
+// the file names.
+std::vector<freespace::CalibratedImage> CamerasOf(const freespace::Scene& asGiven,
+  freespace::EdgeStore& edges, const freespace::MatcherOptions& matching, int mode,
+  const freespace::Progress& progress)
+{
+  constexpr std::size_t small = 200; // images
+  const freespace::SparseModel model = freespace::ReadSceneModel(asGiven);
+  const bool isWanted = mode == vtkEdgeStereoReader::REFINE_ALWAYS ||
+    (mode == vtkEdgeStereoReader::REFINE_SMALL_SCENES && model.images.size() <= small);
+  return isWanted ? freespace::RefineCameras(asGiven, model, edges, matching,
+                      freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress)
+                      .images
+                  : freespace::CalibratedImages(model);
+}
+
 // As many clusters at a time as there are threads: this bounds the memory. The first cluster in the
 // scene's order that fails decides the error; those after the needed ones may fail, and then give no view.
-std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene, std::size_t needed,
-  const freespace::EdgeStereoOptions& options, const freespace::Progress& progress)
+std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
+  const std::vector<freespace::CalibratedImage>& images, freespace::EdgeStore& edges,
+  std::size_t needed, const freespace::MatcherOptions& matching,
+  const freespace::Progress& progress)
 {
-  const std::vector<freespace::CalibratedImage> images = freespace::ReadSceneImages(scene);
-  const SingleThreadedOpenCV guard;
   std::vector<freespace::EdgeView> views(scene.clusters.size());
   freespace::ParallelForWithProgress(views.size(), freespace::SMPParallelFor, progress,
     [&](std::size_t i, const freespace::CancellationFlag& stop)
     {
       try
       {
-        views[i] = freespace::FindFeatures(scene, images, scene.clusters[i], options, stop);
+        views[i] = freespace::FindFeatures(edges, images, scene.clusters[i], matching, stop);
       }
       catch (const freespace::Aborted&)
       {
@@ -198,8 +215,14 @@ int vtkEdgeStereoReader::RequestData(
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
     }
-    const std::vector<freespace::EdgeView> views =
-      FindAllFeatures(scene, needed, options, freespace::AlgorithmProgress(this));
+    const SingleThreadedOpenCV guard;
+    freespace::EdgeStore edges(scene, options.edges);
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    const std::vector<freespace::CalibratedImage> images =
+      CamerasOf(freespace::ReadScene(this->FileName), edges, options.matching, this->RefineCameras,
+        progress.Part(0, 0.5));
+    const std::vector<freespace::EdgeView> views = FindAllFeatures(
+      scene, images, edges, needed, options.matching, progress.Part(0.5, 1));
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,
@@ -227,6 +250,7 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ColorTolerance: " << this->ColorTolerance << "\n";
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
   os << indent << "EveryImage: " << this->EveryImage << "\n";
+  os << indent << "RefineCameras: " << this->RefineCameras << "\n";
   os << indent << "ClusterProposal: " << this->ClusterProposal.Get() << "\n";
   os << indent << "ClusterSummary: " << this->ClusterSummary << "\n";
 }

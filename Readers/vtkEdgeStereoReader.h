@@ -162,6 +162,23 @@ public:
 
   ///@{
   /**
+   * Whether the edges refine the poses of the cameras before they are matched: never (off), always (on),
+   * or where the scene has up to 200 images. Cameras that fit the edges as they are stay exactly as they
+   * are in any case. The views then have the refined cameras. Default off.
+   */
+  enum RefineCamerasMode
+  {
+    REFINE_NEVER = 0,
+    REFINE_ALWAYS = 1,
+    REFINE_SMALL_SCENES = 2
+  };
+  vtkSetClampMacro(RefineCameras, int, REFINE_NEVER, REFINE_SMALL_SCENES);
+  vtkGetMacro(RefineCameras, int);
+  vtkBooleanMacro(RefineCameras, int);
+  ///@}
+
+  ///@{
+  /**
    * How clusters are chosen where the scene.json names none: by the parameters of this object. None, the
    * default, stands for one with the default parameters.
    */
@@ -198,6 +215,7 @@ protected:
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
   int EveryImage = NEVER;
+  int RefineCameras = REFINE_NEVER;
 
 private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;

@@ -159,6 +159,7 @@ int Run(int argc, char* argv[])
   freespace::AddSparseCommand(program, session);
   freespace::AddCalibrateCommand(program, session);
   freespace::AddClustersCommand(program, session);
+  freespace::AddRefineCommand(program, session);
   freespace::AddStereoCommand(program, session);
   freespace::AddTriangulateCommand(program, session);
   freespace::AddContourCommand(program, session);

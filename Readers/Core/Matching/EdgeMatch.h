@@ -20,6 +20,7 @@ struct EdgeMatch
 {
   int images = 0;       ///< besides the reference that show it: 0 when it has no match, 1 where it
                         ///< closes a short gap between confirmed ones, else >= 2
+  int support = 0;      ///< where these begin in the list of all matches' support
   int run = -1;         ///< number of the unbroken piece of chain that it belongs to
   double disparity = 0; ///< 1 / depth in the reference camera, from all rays together
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,

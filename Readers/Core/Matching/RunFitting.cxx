@@ -287,6 +287,7 @@ private:
     const EdgeToken& token = this->Edges.tokens[i];
     EdgeMatch& match = this->Matches[i];
     match.images = hypothesis.count;
+    match.support = hypothesis.begin;
     match.imagePoint =
       token.position + this->BestShift(hypothesis, match.disparity) * token.Normal();
     match.cost = this->MeanCost(hypothesis);

@@ -33,6 +33,9 @@ public:
 
   LargeVector<EdgeMatch> Match();
 
+  // What the matches rest upon.
+  LargeVector<EdgeCandidate> TakeSupport() { return std::move(this->Optimizer.Support); }
+
 private:
   void LearnPrior(const std::vector<std::size_t>& ambiguous);
   void EnforceUniqueness();
@@ -148,8 +151,9 @@ MatcherOptions InPixelsOfTheLongest(
 
 }
 
-LargeVector<EdgeMatch> MatchEdges(
-  const ImageEdges& reference, const std::vector<ImageEdges>& others, const MatcherOptions& options)
+LargeVector<EdgeMatch> MatchEdges(const ImageEdges& reference,
+  const std::vector<ImageEdges>& others, const MatcherOptions& options,
+  LargeVector<EdgeCandidate>* support)
 {
   options.Check();
   if (others.size() < 2)
@@ -157,7 +161,13 @@ LargeVector<EdgeMatch> MatchEdges(
     throw Error("Trinocular matching needs three images.");
   }
   const MatcherOptions scaled = InPixelsOfTheLongest(reference, others, options);
-  return Matcher(reference, others, scaled).Match();
+  Matcher matcher(reference, others, scaled);
+  LargeVector<EdgeMatch> matches = matcher.Match();
+  if (support)
+  {
+    *support = matcher.TakeSupport();
+  }
+  return matches;
 }
 
 }

@@ -3,6 +3,7 @@
 #define freespace_TrinocularMatcher_h
 
 #include "Edges/LargeVector.h"
+#include "Matching/EdgeHypothesis.h"
 #include "Matching/EdgeMatch.h"
 #include "Matching/MatcherOptions.h"
 
@@ -28,9 +29,11 @@ namespace freespace
 ///    the point nearest to the edge lines in all images, in pixels; RunFilter rejects short runs
 ///    without support.
 ///
-/// Returns one match per token. Needs two others at least.
+/// Returns one match per token, and through `support` the tokens of the other images (by their numbers)
+/// that it rests upon. Needs two others at least.
 LargeVector<EdgeMatch> MatchEdges(const ImageEdges& reference,
-  const std::vector<ImageEdges>& others, const MatcherOptions& options);
+  const std::vector<ImageEdges>& others, const MatcherOptions& options,
+  LargeVector<EdgeCandidate>* support = nullptr);
 
 }
 

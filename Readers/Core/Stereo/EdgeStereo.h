@@ -7,6 +7,7 @@
 #include "Edges/EdgeTokens.h"
 #include "Matching/TrinocularMatcher.h"
 #include "Scene/Scene.h"
+#include "Stereo/EdgeStore.h"
 
 namespace freespace
 {
@@ -28,10 +29,15 @@ struct EdgeStereoOptions
 /// Edge positions are freed of the lens's distortion, images are not resampled: the view's camera
 /// is the pinhole of the reference.
 ///
-/// Loads the cluster's images from the scene's folder. `images` is what ReadSceneImages returned.
+/// `images` is what ReadSceneImages returned, or has refined cameras.
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
 /// than its camera's, an unknown image, a triplet without overlap, fewer than three features.
 /// Throws Aborted when the flag is set, at the next image.
+EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& images,
+  const Cluster& cluster, const MatcherOptions& options,
+  const CancellationFlag& stop = NeverCancelled);
+
+/// The same for a single cluster, whose images are loaded from the scene's folder.
 EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,
   const Cluster& cluster, const EdgeStereoOptions& options, const CancellationFlag& stop = NeverCancelled);
 

@@ -14,6 +14,7 @@ void AddReconstructCommand(CLI::App& program, Session& session);
 void AddSparseCommand(CLI::App& program, Session& session);
 void AddCalibrateCommand(CLI::App& program, Session& session);
 void AddClustersCommand(CLI::App& program, Session& session);
+void AddRefineCommand(CLI::App& program, Session& session);
 void AddStereoCommand(CLI::App& program, Session& session);
 void AddTriangulateCommand(CLI::App& program, Session& session);
 void AddContourCommand(CLI::App& program, Session& session);

@@ -35,6 +35,15 @@ void StereoStage::AddOptions(CLI::App& command)
     ->expected(0, 1)
     ->default_str("auto")
     ->group("Stereo");
+  command
+    .add_option("--refine-cameras", this->RefineCameras,
+      "The edges of the images correct the cameras' poses by the fraction of a pixel that these are "
+      "off: on, off, or auto, which is on in scenes of up to 200 images; cameras that fit stay as "
+      "they are")
+    ->check(CLI::IsMember({ "auto", "on", "off" }))
+    ->expected(0, 1)
+    ->default_str("auto")
+    ->group("Stereo");
   this->Choice.AddOptions(command, "Stereo");
 }
 
@@ -56,6 +65,9 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::IN_SMALL_SCENES
       : this->EveryImage == "off"                  ? Reader::NEVER
                                                    : Reader::ALWAYS);
+  stereo->SetRefineCameras(this->RefineCameras == "auto" ? Reader::REFINE_SMALL_SCENES
+      : this->RefineCameras == "off"                     ? Reader::REFINE_NEVER
+                                                         : Reader::REFINE_ALWAYS);
   vtkNew<vtkClusterProposal> clusters;
   this->Choice.Apply(clusters);
   stereo->SetClusterProposal(clusters);

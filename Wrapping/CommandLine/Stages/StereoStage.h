@@ -31,7 +31,8 @@ public:
 private:
   double MinimumDepth = 0;
   double MaximumDepth = 0;
-  std::string EveryImage = "auto"; // empty: on
+  std::string EveryImage = "auto";    // empty: on
+  std::string RefineCameras = "auto"; // empty: on
   ClusterChoice Choice;
 };
 

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refinement/BundleAdjustment.h"
+
+#include "Common/Error.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace freespace
+{
+
+namespace
+{
+
+// How a camera moves from where it was given: a turn about its own centre (angle-axis, radians) and
+// a step in its own frame, in depths of the scene. Small numbers of about the same size.
+using Motion = std::array<double, 6>;
+
+// The world point in the frame of a camera that has moved.
+template <typename T>
+Eigen::Matrix<T, 3, 1> Moved(
+  const Camera& given, double depth, const T* motion, const Eigen::Matrix<T, 3, 1>& world)
+{
+  const Eigen::Matrix<T, 3, 1> before = given.R.cast<T>() * world + given.t.cast<T>();
+  Eigen::Matrix<T, 3, 1> after;
+  ceres::AngleAxisRotatePoint(motion, before.data(), after.data());
+  return after + T(depth) * Eigen::Map<const Eigen::Matrix<T, 3, 1>>(motion + 3);
+}
+
+// Its pixel. The focal lengths are those given times exp(logFocal).
+template <typename T>
+Eigen::Matrix<T, 2, 1> Pixel(
+  const Camera& given, const T& logFocal, const Eigen::Matrix<T, 3, 1>& inCamera)
+{
+  const Eigen::Matrix<T, 2, 1> image = exp(logFocal) * inCamera.template head<2>() / inCamera.z();
+  const Eigen::Matrix2d& K = given.K.topLeftCorner<2, 2>();
+  return K.cast<T>() * image + given.K.topRightCorner<2, 1>().cast<T>();
+}
+
+// How far a point's image lies from the edge that shows it, in deviations. Along the edge only the
+// reference holds it, which no other image contradicts.
+struct EdgeDistance
+{
+  template <typename T>
+  bool operator()(const T* motion, const T* logFocal, const T* point, T* residual) const
+  {
+    const Eigen::Matrix<T, 3, 1> world = Eigen::Map<const Eigen::Matrix<T, 3, 1>>(point);
+    const Eigen::Matrix<T, 3, 1> inCamera = Moved(*this->given, this->depth, motion, world);
+    if (!(inCamera.z() > T(0)))
+    {
+      return false;
+    }
+    const Eigen::Matrix<T, 2, 1> off =
+      Pixel(*this->given, *logFocal, inCamera) - this->observation.position.template cast<T>();
+    const Eigen::Vector2d& normal = this->observation.normal;
+    residual[0] = (normal.x() * off.x() + normal.y() * off.y()) * this->weight;
+    residual[1] = (normal.x() * off.y() - normal.y() * off.x()) * this->weightAlong;
+    return true;
+  }
+
+  const Camera* given;
+  double depth;
+  EdgeObservation observation;
+  double weight, weightAlong;
+};
+
+// How far a camera has moved, in deviations.
+struct MotionSize
+{
+  template <typename T>
+  bool operator()(const T* motion, T* residual) const
+  {
+    for (int k = 0; k < 6; ++k)
+    {
+      residual[k] = motion[k] * this->weight;
+    }
+    return true;
+  }
+
+  double weight;
+};
+
+struct FocalLengthChange
+{
+  template <typename T>
+  bool operator()(const T* logFocal, T* residual) const
+  {
+    residual[0] = *logFocal * this->weight;
+    return true;
+  }
+
+  double weight;
+};
+
+double Median(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return 0;
+  }
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool IsConfirmed(const EdgeTrack& track)
+{
+  return track.observations.size() >= 3;
+}
+
+class Adjustment
+{
+public:
+  Adjustment(const std::vector<Camera>& given, std::vector<Camera>& cameras,
+    const std::vector<int>& lensOf, std::vector<EdgeTrack>& tracks,
+    const BundleAdjustmentOptions& options)
+    : Given(given)
+    , Cameras(cameras)
+    , LensOf(lensOf)
+    , Tracks(tracks)
+    , Options(options)
+    , Motions(cameras.size(), Motion{})
+    , IsObserved(cameras.size(), 0)
+    , LogFocals(lensOf.empty() ? 0 : *std::max_element(lensOf.begin(), lensOf.end()) + 1, 0.0)
+  {
+    this->FindDepths();
+    this->FindMotions();
+  }
+
+  BundleAdjustmentSummary Run()
+  {
+    constexpr double coarse = 0.2, finest = 0.02; // pixels
+    constexpr double perMedian = 1.4826;          // deviations of a normal distribution
+    constexpr int pointIterations = 5;            // two unknowns each
+    BundleAdjustmentSummary summary;
+    this->Solve(coarse, false, pointIterations);
+    summary.residualBefore = Median(this->Distances());
+    this->Solve(coarse, true, this->Options.iterations / 2);
+    this->Solve(std::max(finest, perMedian * Median(this->Distances())), true, this->Options.iterations);
+    summary.residualAfter = Median(this->Distances());
+    this->MoveCameras();
+    summary.motion = this->ImageMotion();
+    return summary;
+  }
+
+private:
+  // The depth of the scene before each camera.
+  void FindDepths()
+  {
+    std::vector<std::vector<double>> depths(this->Given.size());
+    for (const EdgeTrack& track : this->Tracks)
+    {
+      for (const EdgeObservation& observation : track.observations)
+      {
+        if (IsConfirmed(track))
+        {
+          depths[observation.image].push_back(this->Given[observation.image].Depth(track.point));
+        }
+      }
+    }
+    for (std::size_t camera = 0; camera < this->Given.size(); ++camera)
+    {
+      const double depth = Median(std::move(depths[camera]));
+      this->Depths.push_back(depth > 0 ? depth : 1);
+    }
+  }
+
+  // What brought the given cameras to where they are now.
+  void FindMotions()
+  {
+    for (std::size_t i = 0; i < this->Given.size(); ++i)
+    {
+      const Eigen::Matrix3d R = this->Cameras[i].R * this->Given[i].R.transpose();
+      const Eigen::AngleAxisd turn(R);
+      Eigen::Map<Eigen::Vector3d>(this->Motions[i].data()) = turn.angle() * turn.axis();
+      Eigen::Map<Eigen::Vector3d>(this->Motions[i].data() + 3) =
+        (this->Cameras[i].t - R * this->Given[i].t) / this->Depths[i];
+      this->LogFocals[this->LensOf[i]] = std::log(this->Cameras[i].K(0, 0) / this->Given[i].K(0, 0));
+    }
+  }
+
+  // Least squares over the points, and the cameras where these move. `deviation`: of the position of
+  // a strong edge, pixels.
+  void Solve(double deviation, bool moveCameras, int iterations)
+  {
+    ceres::Problem::Options ownership;
+    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::CauchyLoss loss(2.0); // deviations
+    ceres::Problem problem(ownership);
+    auto* ordering = new ceres::ParameterBlockOrdering;
+    this->AddTracks(problem, loss, deviation, *ordering);
+    this->AddPriors(problem, *ordering);
+    for (std::size_t camera = 0; camera < this->Given.size(); ++camera)
+    {
+      if (!moveCameras && problem.HasParameterBlock(this->Motions[camera].data()))
+      {
+        problem.SetParameterBlockConstant(this->Motions[camera].data());
+      }
+    }
+    for (double& logFocal : this->LogFocals)
+    {
+      if (!(moveCameras && this->Options.refineFocalLengths) && problem.HasParameterBlock(&logFocal))
+      {
+        problem.SetParameterBlockConstant(&logFocal);
+      }
+    }
+    constexpr std::size_t few = 200; // cameras whose normal matrix may be dense
+    ceres::Solver::Options options;
+    options.linear_solver_ordering.reset(ordering);
+    options.linear_solver_type =
+      this->Given.size() <= few ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+    options.max_num_iterations = iterations;
+    options.function_tolerance = 1e-5;
+    options.num_threads = 1; // sums in another order would round in another way
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+  }
+
+  void AddTracks(ceres::Problem& problem, ceres::LossFunction& loss, double deviation,
+    ceres::ParameterBlockOrdering& ordering)
+  {
+    using Cost = ceres::AutoDiffCostFunction<EdgeDistance, 2, 6, 1, 3>;
+    for (EdgeTrack& track : this->Tracks)
+    {
+      if (!IsConfirmed(track))
+      {
+        continue;
+      }
+      ordering.AddElementToGroup(track.point.data(), 0);
+      for (const EdgeObservation& observation : track.observations)
+      {
+        const bool isReference = &observation == &track.observations.front();
+        const std::size_t camera = observation.image;
+        this->IsObserved[camera] = 1;
+        problem.AddResidualBlock(
+          new Cost(new EdgeDistance{ &this->Given[camera], this->Depths[camera], observation,
+            1 / (deviation * observation.uncertainty), isReference ? 1.0 : 0.0 }),
+          &loss, this->Motions[camera].data(), &this->LogFocals[this->LensOf[camera]],
+          track.point.data());
+      }
+    }
+  }
+
+  void AddPriors(ceres::Problem& problem, ceres::ParameterBlockOrdering& ordering)
+  {
+    using Cost = ceres::AutoDiffCostFunction<MotionSize, 6, 6>;
+    using FocalCost = ceres::AutoDiffCostFunction<FocalLengthChange, 1, 1>;
+    for (std::size_t camera = 0; camera < this->Given.size(); ++camera)
+    {
+      double* motion = this->Motions[camera].data();
+      if (problem.HasParameterBlock(motion))
+      {
+        const double focal = this->Given[camera].K(0, 0);
+        problem.AddResidualBlock(
+          new Cost(new MotionSize{ focal / this->Options.poseDeviation }), nullptr, motion);
+        ordering.AddElementToGroup(motion, 1);
+        ordering.AddElementToGroup(&this->LogFocals[this->LensOf[camera]], 1);
+      }
+    }
+    for (double& logFocal : this->LogFocals)
+    {
+      if (problem.HasParameterBlock(&logFocal))
+      {
+        problem.AddResidualBlock(
+          new FocalCost(new FocalLengthChange{ 1 / this->Options.focalLengthDeviation }), nullptr,
+          &logFocal);
+      }
+    }
+  }
+
+  // Of the points' images from the edges, pixels.
+  std::vector<double> Distances() const
+  {
+    std::vector<double> distances;
+    for (const EdgeTrack& track : this->Tracks)
+    {
+      for (const EdgeObservation& observation : track.observations)
+      {
+        if (IsConfirmed(track))
+        {
+          const std::size_t camera = observation.image;
+          const EdgeDistance distance{ &this->Given[camera], this->Depths[camera], observation, 1,
+            0 };
+          double off[2] = { 0, 0 };
+          distance(this->Motions[camera].data(), &this->LogFocals[this->LensOf[camera]],
+            track.point.data(), off);
+          distances.push_back(std::abs(off[0]));
+        }
+      }
+    }
+    return distances;
+  }
+
+  void MoveCameras()
+  {
+    for (std::size_t i = 0; i < this->Given.size(); ++i)
+    {
+      const Camera& given = this->Given[i];
+      Camera& camera = this->Cameras[i];
+      const Eigen::Map<const Eigen::Vector3d> turn(this->Motions[i].data());
+      const Eigen::Map<const Eigen::Vector3d> step(this->Motions[i].data() + 3);
+      if (!this->IsObserved[i])
+      {
+        continue;
+      }
+      const Eigen::Matrix3d R = turn.norm() > 0
+        ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
+        : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      camera.R = R * given.R;
+      camera.t = R * given.t + this->Depths[i] * step;
+      camera.K.topLeftCorner<2, 2>() =
+        std::exp(this->LogFocals[this->LensOf[i]]) * given.K.topLeftCorner<2, 2>();
+    }
+  }
+
+  // See the summary.
+  double ImageMotion() const
+  {
+    std::vector<std::vector<double>> motions(this->Given.size());
+    for (const EdgeTrack& track : this->Tracks)
+    {
+      for (const EdgeObservation& observation : track.observations)
+      {
+        const std::size_t i = observation.image;
+        if (IsConfirmed(track) && this->Given[i].Depth(track.point) > 0)
+        {
+          motions[i].push_back(
+            (this->Cameras[i].Project(track.point) - this->Given[i].Project(track.point)).norm());
+        }
+      }
+    }
+    std::vector<double> medians;
+    for (std::vector<double>& motion : motions)
+    {
+      if (!motion.empty())
+      {
+        medians.push_back(Median(std::move(motion)));
+      }
+    }
+    return Median(std::move(medians));
+  }
+
+  const std::vector<Camera>& Given;
+  std::vector<Camera>& Cameras;
+  const std::vector<int>& LensOf;
+  std::vector<EdgeTrack>& Tracks;
+  const BundleAdjustmentOptions& Options;
+  std::vector<Motion> Motions;   // per camera, from the given one
+  std::vector<char> IsObserved;  // per camera
+  std::vector<double> Depths;    // of the scene, per camera
+  std::vector<double> LogFocals; // per lens
+};
+
+}
+
+void BundleAdjustmentOptions::Check() const
+{
+  if (!(this->poseDeviation > 0) || !(this->focalLengthDeviation > 0) || this->iterations < 2)
+  {
+    throw Error("The deviations of given cameras and the number of iterations must be positive.");
+  }
+}
+
+BundleAdjustmentSummary AdjustCameras(const std::vector<Camera>& given,
+  std::vector<Camera>& cameras, const std::vector<int>& lensOf, std::vector<EdgeTrack>& tracks,
+  const BundleAdjustmentOptions& options)
+{
+  options.Check();
+  return Adjustment(given, cameras, lensOf, tracks, options).Run();
+}
+
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_CameraRefinement_h
+#define freespace_CameraRefinement_h
+
+#include "Common/ParallelFor.h"
+#include "Common/Progress.h"
+#include "Matching/MatcherOptions.h"
+#include "Refinement/BundleAdjustment.h"
+#include "Scene/Scene.h"
+#include "Stereo/EdgeStore.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// How the cameras of a scene are refined by the edges of its photographs.
+struct CameraRefinementOptions
+{
+  BundleAdjustmentOptions adjustment;
+  int neighbors = 4;      ///< images that an image's edges are matched with; >= 2
+  double tolerance = 1.5; ///< of a third image's confirmation before the first adjustment, pixels: as
+                          ///< far as the given cameras may be off; > 0. Half of it in each round after
+  int rounds = 2;         ///< of matching and adjusting; > 0
+  std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
+  std::size_t tracksPerImage = 400;   ///< matches that take part in the adjustment; > 0
+  double leastMotion = 0.12; ///< median motion of the images, pixels, for the cameras to be changed at
+                             ///< all: the noise of the edges alone moves them by 0.05 to 0.1; >= 0
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// What became of a scene's cameras.
+struct CameraRefinement
+{
+  std::vector<CalibratedImage> images; ///< as given or refined, in the given order
+  bool isRefined = false; ///< false: the given cameras are as good as the edges can tell
+  std::size_t clusters = 0; ///< images around which edges were matched
+  std::size_t tracks = 0;   ///< of the last adjustment
+  BundleAdjustmentSummary residuals; ///< of the first adjustment before, of the last one after, on
+                                     ///< the first's and last's tracks
+};
+
+/// Refines the poses of the images (and the focal lengths where asked): the edges of each are matched
+/// with those of its neighbours, loosely at first, and the cameras moved such that all of them meet
+/// (AdjustCameras); then more strictly, with the cameras moved. Images that no cluster holds stay as
+/// they are. The same result for any number of threads.
+///
+/// Where the given cameras are exact, noise alone would move them: they stay, exactly, where
+/// the edges would move them by no more than that.
+///
+/// `images` and `model` as ReadSceneModel gives them. Throws Error naming the file: an image that is
+/// missing, unreadable or of another size than its camera's. Throws Aborted.
+CameraRefinement RefineCameras(const Scene& scene, const SparseModel& model, EdgeStore& edges,
+  const MatcherOptions& matching, const CameraRefinementOptions& options,
+  const ParallelFor& parallelFor, const Progress& progress);
+
+/// The model with the poses and focal lengths of these images, which are its own in its order.
+SparseModel WithCameras(SparseModel model, const std::vector<CalibratedImage>& images);
+
+}
+
+#endif

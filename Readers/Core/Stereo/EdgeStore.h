@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_EdgeStore_h
+#define freespace_EdgeStore_h
+
+#include "Edges/EdgeTokens.h"
+#include "Scene/Scene.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace freespace
+{
+
+/// The edges of a scene's photographs, freed of the lens's distortion. An image takes part in several
+/// clusters, and in the refinement of the cameras: its edges are found once and kept, as far as memory
+/// allows. Several threads may ask at the same time.
+class EdgeStore
+{
+public:
+  /// Keeps what was asked for last while the edges take up to `mostTokens` tokens (of 72 bytes).
+  EdgeStore(
+    const Scene& scene, const EdgeTokenOptions& options, std::size_t mostTokens = std::size_t(1) << 24);
+
+  /// The edges of an image where a camera without distortion would see them. They depend on its
+  /// intrinsics, not on its pose. Throws Error naming the file: missing, unreadable or of another size
+  /// than the camera's.
+  std::shared_ptr<const EdgeChains> Edges(const CalibratedImage& image);
+
+private:
+  struct Entry
+  {
+    std::mutex mutex; // who finds the edges holds it
+    std::shared_ptr<const EdgeChains> edges;
+    CalibratedImage image; // for which they were found
+    std::size_t lastUse = 0;
+  };
+
+  void Note(Entry& entry, const std::shared_ptr<const EdgeChains>& edges);
+
+  std::string Images; // folder
+  EdgeTokenOptions Options;
+  std::size_t MostTokens;
+  std::mutex Mutex; // of what follows, and of the entries' edges and lastUse
+  std::map<std::string, std::shared_ptr<Entry>> Entries;
+  std::map<std::size_t, Entry*> Kept; // those with edges, by their last use
+  std::size_t Tokens = 0;             // of these
+  std::size_t Uses = 0;
+};
+
+}
+
+#endif
