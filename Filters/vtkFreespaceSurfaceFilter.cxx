@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreespaceSurfaceFilter.h"
 
+#include "Freespace/FreespaceUnion.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFitSurfaceFilter.h"
 #include "vtkFreespaceUnion.h"
@@ -87,7 +88,6 @@ constexpr double ShareOfContour = 0.5; // of the time, where the surface is fitt
 
 vtkFreespaceSurfaceFilter::vtkFreespaceSurfaceFilter()
 {
-  this->FreespaceUnion->SetHullMarginToAutomatic();
   this->FreespaceUnion->SetMinimumViewsToAutomatic();
   this->Contour->SetImplicitFunction(this->FreespaceUnion);
   this->Contour->SetCellsToAutomatic();
@@ -178,6 +178,11 @@ int vtkFreespaceSurfaceFilter::RequestData(
   vtkNew<vtkMultiBlockDataSet> maps;
   maps->ShallowCopy(vtkMultiBlockDataSet::GetData(inputVector[0]));
   this->FreespaceUnion->SetMaps(maps);
+  const freespace::FreespaceUnionOptions defaults;
+  const int cells = this->Contour->GetCells();
+  this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
+      : cells > 0                                          ? defaults.hullMarginCells / cells
+                                 : freespace::FreespaceUnionOptions::AutomaticMargin);
 
   const bool hasPieces =
     information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) != 0;
@@ -219,6 +224,7 @@ int vtkFreespaceSurfaceFilter::RequestData(
 void vtkFreespaceSurfaceFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "HullMargin: " << this->HullMargin << "\n";
   os << indent << "FitSurface: " << this->FitSurface << "\n";
   os << indent << "FreespaceUnion:\n";
   this->FreespaceUnion->PrintSelf(os, indent.GetNextIndent());

@@ -69,6 +69,15 @@ public:
 
   ///@{
   /**
+   * By how much the hull is pushed out, as a fraction of the diagonal of the region's features; -1, the
+   * default, is somewhat more than a cell of the lattice. See vtkFreespaceUnion::SetHullMargin.
+   */
+  vtkSetMacro(HullMargin, double);
+  vtkGetMacro(HullMargin, double);
+  ///@}
+
+  ///@{
+  /**
    * So many views must agree that a point is free; -1, the default, is 1 or 2 by how often views contradict
    * each other. 1 is the paper. See vtkFreespaceUnion::SetMinimumViews.
    */
@@ -100,6 +109,7 @@ private:
   vtkNew<vtkBisectionContourFilter> Contour;
   vtkNew<vtkFitSurfaceFilter> Fit;
   bool FitSurface = true;
+  double HullMargin = -1.0;
   vtkMTimeType InnerTime = 0; ///< of the classes' settings, without the data that come and go
 };
 

@@ -69,7 +69,7 @@ TEST(FreespaceSurfaceFilter, IsTheContourOfTheUnion)
     const auto maps = MakeMaps(seed);
     vtkNew<vtkFreespaceUnion> phi;
     phi->SetMaps(maps);
-    phi->SetHullMarginToAutomatic();
+    phi->SetHullMargin(1.25 / 32); // of the 32 cells
     phi->SetMinimumViewsToAutomatic();
     vtkNew<vtkBisectionContourFilter> contour;
     contour->SetImplicitFunction(phi);

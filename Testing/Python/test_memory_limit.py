@@ -29,7 +29,8 @@ class TestMemoryLimit(unittest.TestCase):
                               timeout=300)
 
     def test_pieces_are_the_whole(self):
-        for options in (('--no-fit',), ('--no-fit', '--no-sharp')):  # pieces are not fitted
+        # A surface that is written in pieces is not fitted and keeps its crumbs.
+        for options in (('--no-fit', '--crumbs', 'keep'), ('--no-fit', '--crumbs', 'keep', '--no-sharp')):
             with self.subTest(options=options):
                 for name, limit in (('whole.ply', 0), ('pieces.ply', 3)):
                     result = self.run_program('contour', 'maps.vtm', '--cells', 200, '--memory-limit', limit,

@@ -42,8 +42,8 @@ class TestOnePipeline(unittest.TestCase):
             freespace.update(writer)
             program = body(names['program'])
             self.assertGreater(len(program[1]), 1e5)
-            self.assertEqual(body(names['python']), program)
-            self.assertEqual(body(names['cxx']), program)
+            self.assertTrue(body(names['python']) == program, 'Python and the program differ')
+            self.assertTrue(body(names['cxx']) == program, 'C++ and the program differ')
 
 
 if __name__ == '__main__':

@@ -72,7 +72,7 @@ class WithScene(unittest.TestCase):
         (cls.made / 'images').mkdir()
         for image in (SCENE / 'images').glob('cluster1_*'):
             shutil.copy(image, cls.made / 'images')
-        for command in (('stereo', 'scene.json', '-o', 'features.vtm'),
+        for command in (('stereo', 'scene.json', '-o', 'features.vtm', '--every-image', 'off'),
                         ('triangulate', 'features.vtm', '-o', 'maps.vtm'),
                         ('contour', 'maps.vtm', '-o', 'mesh.ply', '--cells', 40)):
             result = run(*command, cwd=cls.made)
