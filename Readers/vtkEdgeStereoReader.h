@@ -164,7 +164,7 @@ public:
   /**
    * Whether the edges refine the poses of the cameras before they are matched: never (off), always (on),
    * or where the scene has up to 200 images. Cameras that fit the edges as they are stay exactly as they
-   * are in any case. The views then have the refined cameras. Default off.
+   * are in any case. The views then have the refined cameras. Default small scenes.
    */
   enum RefineCamerasMode
   {
@@ -215,7 +215,7 @@ protected:
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
   int EveryImage = NEVER;
-  int RefineCameras = REFINE_NEVER;
+  int RefineCameras = REFINE_SMALL_SCENES;
 
 private:
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
