@@ -147,7 +147,7 @@ public:
   /**
    * Whether every image of a cluster makes a view, not the reference alone: never (off), always (on), or
    * in small scenes, whose clusters have no more than 15 images in all. There the images that are no
-   * references see most that is new, and the time is short. Default off.
+   * references see most that is new, and the time is short. Default small scenes.
    */
   enum EveryImageMode
   {
@@ -214,7 +214,7 @@ protected:
   double MinimumAngle = 6.0;
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
-  int EveryImage = NEVER;
+  int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
 
 private:

@@ -111,6 +111,7 @@ TEST(EdgeStereoReader, ArraysAndCells)
 {
   const SquaresScene scene(1);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   reader->Update();
   ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 1u);
@@ -140,6 +141,7 @@ TEST(EdgeStereoReader, SameForAnyNumberOfThreads)
       [&]()
       {
         vtkNew<vtkEdgeStereoReader> reader;
+        reader->EveryImageOff(); // views of the references alone
         reader->SetFileName(scene.File);
         reader->Update();
         ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 5u);
@@ -159,6 +161,7 @@ TEST(EdgeStereoReader, EveryImageMakesAView)
 {
   const SquaresScene scene(2); // of the same images
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   reader->Update();
   vtkNew<vtkMultiBlockDataSet> middles;
@@ -198,6 +201,7 @@ TEST(EdgeStereoReader, RunsAgainWhenTheFileChanges)
 {
   const SquaresScene scene(2);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   reader->Update();
   const vtkMTimeType before = reader->GetOutput()->GetMTime();
@@ -221,6 +225,7 @@ TEST(EdgeStereoReader, AbortLeavesNothing)
 {
   const SquaresScene scene(3);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   vtkNew<vtkCallbackCommand> abort;
   abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
@@ -234,6 +239,7 @@ TEST(EdgeStereoReader, ProgressMovesWhileImagesAreMatched)
 {
   const SquaresScene scene(3);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   std::vector<double> seen;
   vtkNew<vtkCallbackCommand> see;
@@ -269,6 +275,7 @@ TEST(EdgeStereoReader, BadInputIsToldAndLeavesNothing)
 {
   const SquaresScene scene(2);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.Folder.Path("other.json"));
   EXPECT_NE(Complaint(reader).find("other.json"), std::string::npos);
 
@@ -292,6 +299,7 @@ TEST(EdgeStereoReader, DepthLimits)
 {
   const SquaresScene scene(1);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   reader->SetMinimumDepth(0.9);
   reader->SetMaximumDepth(1.1);
@@ -305,6 +313,7 @@ TEST(FeatureOverlayWriter, DrawsOnePicturePerView)
 {
   const SquaresScene scene(2);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   vtkNew<vtkFeatureOverlayWriter> writer;
   writer->SetInputConnection(reader->GetOutputPort());
@@ -330,6 +339,7 @@ TEST(FeatureOverlayWriter, MissingPicture)
 {
   const SquaresScene scene(1);
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene.File);
   vtkNew<vtkFeatureOverlayWriter> writer;
   writer->SetInputConnection(reader->GetOutputPort());
@@ -354,6 +364,7 @@ TEST(EdgeStereoReader, BlocksSceneGivesEnoughFeatures)
     GTEST_SKIP() << "The blocks scene is not there.";
   }
   vtkNew<vtkEdgeStereoReader> reader;
+  reader->EveryImageOff(); // views of the references alone
   reader->SetFileName(scene);
   reader->Update();
   ASSERT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 6u);
