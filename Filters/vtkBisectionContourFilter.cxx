@@ -152,9 +152,8 @@ void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int
   const freespace::RegionOfInterest& region = core.FeatureRegion();
   vtkNew<vtkDoubleArray> lattice;
   lattice->SetName("Lattice");
-  for (const double value :
-    { static_cast<double>(cells), static_cast<double>(region.features),
-      static_cast<double>(region.beyond) })
+  for (const double value : { static_cast<double>(cells), static_cast<double>(region.features),
+         static_cast<double>(region.beyond) })
   {
     lattice->InsertNextValue(value);
   }

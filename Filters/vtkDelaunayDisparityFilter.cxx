@@ -86,7 +86,8 @@ int vtkDelaunayDisparityFilter::RequestData(
         maps, *cloud, background, freespace::SMPParallelFor, progress.Part(0.65, 0.95));
     }
     std::vector<vtkSmartPointer<vtkPolyData>> blocks(maps.size());
-    freespace::ParallelForWithProgress(maps.size(), freespace::SMPParallelFor, progress.Part(0.95, 1.0),
+    freespace::ParallelForWithProgress(maps.size(), freespace::SMPParallelFor,
+      progress.Part(0.95, 1.0),
       [&](std::size_t i, const freespace::CancellationFlag&)
       {
         freespace::RemoveLongTriangles(maps[i], untrusted);

@@ -142,7 +142,8 @@ vtkMTimeType vtkFreespaceSurfaceFilter::GetMTime()
 
 vtkMTimeType vtkFreespaceSurfaceFilter::TimeOfSettings()
 {
-  return std::max({ this->FreespaceUnion->GetMTime(), this->Contour->GetMTime(), this->Fit->GetMTime() });
+  return std::max(
+    { this->FreespaceUnion->GetMTime(), this->Contour->GetMTime(), this->Fit->GetMTime() });
 }
 
 int vtkFreespaceSurfaceFilter::FillInputPortInformation(int, vtkInformation* info)
@@ -181,8 +182,8 @@ int vtkFreespaceSurfaceFilter::RequestData(
   const freespace::FreespaceUnionOptions defaults;
   const int cells = this->Contour->GetCells();
   this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
-      : cells > 0                                          ? defaults.hullMarginCells / cells
-                                 : freespace::FreespaceUnionOptions::AutomaticMargin);
+      : cells > 0                                           ? defaults.hullMarginCells / cells
+                  : freespace::FreespaceUnionOptions::AutomaticMargin);
 
   const bool hasPieces =
     information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) != 0;

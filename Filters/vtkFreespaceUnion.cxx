@@ -124,8 +124,9 @@ bool AskAll(vtkFreespaceUnion* phi, const freespace::Progress& progress, MakeInd
     {
       (core.get()->*makeIndex)(progress.Part(0.9 * built, built));
     }
-    freespace::ParallelForWithProgress(static_cast<std::size_t>((count + blockSize - 1) / blockSize),
-      freespace::SMPParallelFor, progress.Part(built, 1.0),
+    freespace::ParallelForWithProgress(
+      static_cast<std::size_t>((count + blockSize - 1) / blockSize), freespace::SMPParallelFor,
+      progress.Part(built, 1.0),
       [&](std::size_t block, const freespace::CancellationFlag& stop)
       {
         const vtkIdType begin = static_cast<vtkIdType>(block) * blockSize;
@@ -244,9 +245,9 @@ void vtkFreespaceUnion::Build(const freespace::Progress& progress)
   options.region.mode = this->RegionMode == BOX_REGION ? Mode::Box
     : this->RegionMode == WHOLE_REGION                 ? Mode::All
                                                        : Mode::Automatic;
-  options.region.box = Eigen::AlignedBox3d(
-    Eigen::Vector3d(this->Region[0], this->Region[2], this->Region[4]),
-    Eigen::Vector3d(this->Region[1], this->Region[3], this->Region[5]));
+  options.region.box =
+    Eigen::AlignedBox3d(Eigen::Vector3d(this->Region[0], this->Region[2], this->Region[4]),
+      Eigen::Vector3d(this->Region[1], this->Region[3], this->Region[5]));
   vtkMultiBlockDataSet* maps = this->Inner->Maps;
   this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
     maps->GetNumberOfBlocks(),
@@ -345,8 +346,7 @@ bool vtkFreespaceUnion::IsPointFree(const double point[3])
 double vtkFreespaceUnion::FirstBlocked(const double first[3], const double last[3])
 {
   const auto core = this->GetCore();
-  return core ? freespace::FirstBlocked(*core, Eigen::Vector3d(first), Eigen::Vector3d(last))
-              : 0.0;
+  return core ? freespace::FirstBlocked(*core, Eigen::Vector3d(first), Eigen::Vector3d(last)) : 0.0;
 }
 
 bool vtkFreespaceUnion::IsSegmentFree(const double first[3], const double last[3])
@@ -422,8 +422,7 @@ void vtkFreespaceUnion::GetBounds(double bounds[6])
   GiveBounds(core ? core->Hull().Bounds() : Eigen::AlignedBox3d(), bounds);
 }
 
-void vtkFreespaceUnion::SetRegion(
-  double x0, double x1, double y0, double y1, double z0, double z1)
+void vtkFreespaceUnion::SetRegion(double x0, double x1, double y0, double y1, double z0, double z1)
 {
   const double bounds[6] = { x0, x1, y0, y1, z0, z1 };
   this->SetRegion(bounds);

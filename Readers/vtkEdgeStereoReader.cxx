@@ -221,8 +221,8 @@ int vtkEdgeStereoReader::RequestData(
     const std::vector<freespace::CalibratedImage> images =
       CamerasOf(freespace::ReadScene(this->FileName), edges, options.matching, this->RefineCameras,
         progress.Part(0, 0.5));
-    const std::vector<freespace::EdgeView> views = FindAllFeatures(
-      scene, images, edges, needed, options.matching, progress.Part(0.5, 1));
+    const std::vector<freespace::EdgeView> views =
+      FindAllFeatures(scene, images, edges, needed, options.matching, progress.Part(0.5, 1));
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,

@@ -52,7 +52,7 @@
 #include "vtkFreespaceReadersModule.h" // for the export macro
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
-#include "vtkSmartPointer.h"              // for the cluster proposal
+#include "vtkSmartPointer.h" // for the cluster proposal
 
 #include <string> // for FileName
 #include <vector> // for FilesRead

@@ -70,9 +70,8 @@ std::optional<Camera> ViewpointFromComment(const std::string& comment)
   bool valid = words >> word && word == keyword;
   const auto read = [&](auto& value)
   {
-    const auto number = words >> word
-      ? ParseNumber<std::remove_reference_t<decltype(value)>>(word)
-      : std::nullopt;
+    const auto number =
+      words >> word ? ParseNumber<std::remove_reference_t<decltype(value)>>(word) : std::nullopt;
     valid = valid && number;
     value = number.value_or(0);
   };

@@ -13,10 +13,12 @@ namespace freespace
 /// A core Progress that reports to a VTK algorithm and stops when its AbortExecute is set.
 inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
 {
-  return Progress([algorithm](double fraction) {
-    algorithm->UpdateProgress(fraction);
-    return algorithm->GetAbortExecute() == 0;
-  });
+  return Progress(
+    [algorithm](double fraction)
+    {
+      algorithm->UpdateProgress(fraction);
+      return algorithm->GetAbortExecute() == 0;
+    });
 }
 
 /// For the catch (...) that ends a RequestData: empties the output, tells VTK what the core threw and

@@ -13,9 +13,9 @@ namespace freespace
 inline void SMPParallelFor(
   std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)
 {
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1, [&body](vtkIdType begin, vtkIdType end) {
-    body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
-  });
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
+    [&body](vtkIdType begin, vtkIdType end)
+    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
 }
 
 }

@@ -18,8 +18,8 @@ GeometryBuffer::~GeometryBuffer() = default;
 
 bool GeometryBuffer::Bind(vtkOpenGLRenderWindow* window, int width, int height, int samples)
 {
-  if (this->Framebuffer->GetContext() == window && width == this->Width &&
-    height == this->Height && samples == this->AskedSamples)
+  if (this->Framebuffer->GetContext() == window && width == this->Width && height == this->Height &&
+    samples == this->AskedSamples)
   {
     this->Framebuffer->Bind(GL_FRAMEBUFFER);
     return this->Complete;

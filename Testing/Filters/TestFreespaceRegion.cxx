@@ -56,7 +56,8 @@ DisparityMap Wall(double eyeX, bool withFar, int index)
   if (withFar)
   {
     const int n = static_cast<int>(map.points.size());
-    map.points.insert(map.points.end(), { { -190, -190, 1000 }, { -120, -190, 1000 }, { -190, -120, 1000 } });
+    map.points.insert(
+      map.points.end(), { { -190, -190, 1000 }, { -120, -190, 1000 }, { -190, -120, 1000 } });
     map.triangles.push_back({ n, n + 1, n + 2 });
   }
   for (const Vector3d& point : map.points)

@@ -175,8 +175,8 @@ TEST(EdgeStereoReader, EveryImageMakesAView)
   for (unsigned int i = 0; i < 4; ++i)
   {
     EXPECT_STREQ(views->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()), names[i]);
-    EXPECT_EQ(Block(views, i)->GetFieldData()->GetAbstractArray("ImageFile")->GetVariantValue(0),
-      files[i]);
+    EXPECT_EQ(
+      Block(views, i)->GetFieldData()->GetAbstractArray("ImageFile")->GetVariantValue(0), files[i]);
     EXPECT_GT(Block(views, i)->GetNumberOfPoints(), 800);
   }
   for (unsigned int i = 0; i < 2; ++i)

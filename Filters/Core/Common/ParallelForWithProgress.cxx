@@ -33,8 +33,8 @@ void Add(std::atomic<double>& sum, double value)
 }
 
 // Does the work on another thread while this one looks at the progress.
-void WatchedWork(const Progress& progress, CancellationFlag& stop, const std::function<double()>& fraction,
-  const std::function<void()>& work)
+void WatchedWork(const Progress& progress, CancellationFlag& stop,
+  const std::function<double()>& fraction, const std::function<void()>& work)
 {
   progress(0.0);
   std::future<void> worker = std::async(std::launch::async, work);
@@ -60,8 +60,8 @@ void WatchedWork(const Progress& progress, CancellationFlag& stop, const std::fu
 
 }
 
-void ParallelForWithProgress(std::size_t count, const ParallelFor& parallelFor, const Progress& progress,
-  const CancellableBody& body)
+void ParallelForWithProgress(std::size_t count, const ParallelFor& parallelFor,
+  const Progress& progress, const CancellableBody& body)
 {
   CancellationFlag stop{ false };
   std::atomic<std::size_t> done{ 0 };
@@ -119,7 +119,8 @@ void ParallelForWithProgress(const std::vector<double>& work, const ParallelFor&
     });
 }
 
-void RunWithProgress(const Progress& progress, const std::function<void(const CancellationFlag& stop)>& body)
+void RunWithProgress(
+  const Progress& progress, const std::function<void(const CancellationFlag& stop)>& body)
 {
   CancellationFlag stop{ false };
   WatchedWork(

@@ -19,8 +19,8 @@ using CancellableBody = std::function<void(std::size_t i, const CancellationFlag
 /// caller looks at the progress every 20 ms meanwhile, so that it moves, and can stop the work, however
 /// long a single body takes. Throws what the progress threw, or else what the bodies did, like ForEach; all
 /// bodies have ended then.
-void ParallelForWithProgress(std::size_t count, const ParallelFor& parallelFor, const Progress& progress,
-  const CancellableBody& body);
+void ParallelForWithProgress(std::size_t count, const ParallelFor& parallelFor,
+  const Progress& progress, const CancellableBody& body);
 
 /// The same for bodies of unequal size, of which the work, in any unit, is known before: the largest
 /// begin first, so that no thread is left alone with one at the end, and the progress moves with the
@@ -29,7 +29,8 @@ void ParallelForWithProgress(const std::vector<double>& work, const ParallelFor&
   const Progress& progress, const CancellableBody& body);
 
 /// A single computation, watched in the same way; its progress does not move.
-void RunWithProgress(const Progress& progress, const std::function<void(const CancellationFlag& stop)>& body);
+void RunWithProgress(
+  const Progress& progress, const std::function<void(const CancellationFlag& stop)>& body);
 
 }
 

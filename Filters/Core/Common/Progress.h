@@ -35,10 +35,12 @@ public:
   /// The part of this progress from `begin` to `end`, as a progress of its own.
   Progress Part(double begin, double end) const
   {
-    return Progress([whole = *this, begin, end](double fraction) {
-      whole(begin + fraction * (end - begin));
-      return true;
-    });
+    return Progress(
+      [whole = *this, begin, end](double fraction)
+      {
+        whole(begin + fraction * (end - begin));
+        return true;
+      });
   }
 
 private:

@@ -23,7 +23,8 @@ public:
   };
 
   /// Takes the finite features of all views. O(n log n). Throws Aborted soon after the flag is set.
-  explicit FeatureCloud(const std::vector<View>& views, const CancellationFlag& stop = NeverCancelled);
+  explicit FeatureCloud(
+    const std::vector<View>& views, const CancellationFlag& stop = NeverCancelled);
 
   std::size_t Size() const { return this->Features.size(); }
 

@@ -11,11 +11,11 @@ namespace freespace
 /// that the recovered features have a requisite amount of support in a local neighborhood").
 struct FeatureSupportOptions
 {
-  double radius = 4.0;             ///< of the neighbourhood, pixels; > 0
-  double spacings = 0;             ///< when positive, the radius is so many times the mean distance
-                                   ///< of the view's features instead: 2 takes in about 12 of them
-  int minimumNeighbors = 0;        ///< that agree, the feature itself not counted; 0 keeps all:
-                                   ///< outliers are then left to OutlierRejection
+  double radius = 4.0;      ///< of the neighbourhood, pixels; > 0
+  double spacings = 0;      ///< when positive, the radius is so many times the mean distance
+                            ///< of the view's features instead: 2 takes in about 12 of them
+  int minimumNeighbors = 0; ///< that agree, the feature itself not counted; 0 keeps all:
+                            ///< outliers are then left to OutlierRejection
   double disparityTolerance = 0.01; ///< two features agree when their disparities differ by no more
                                     ///< than this fraction of the greater one
 

@@ -11,8 +11,8 @@ namespace freespace
 namespace
 {
 
-bool IsTrusted(const DisparityMap& map, const std::array<int, 3>& triangle,
-  const LongTrianglesOptions& options)
+bool IsTrusted(
+  const DisparityMap& map, const std::array<int, 3>& triangle, const LongTrianglesOptions& options)
 {
   double longest = 0, nearest = HUGE_VAL, farthest = 0;
   for (int i = 0; i < 3; ++i)

@@ -65,8 +65,7 @@ std::vector<DisparityMap> CameraSurroundings(
       continue;
     }
     // The corners of the cube are farther than its sides.
-    const double halfSide =
-      share / std::sqrt(3.0) * DistanceToNearest(region.features, center);
+    const double halfSide = share / std::sqrt(3.0) * DistanceToNearest(region.features, center);
     for (int side = 0; side < 6 && halfSide > 0; ++side)
     {
       maps.push_back(

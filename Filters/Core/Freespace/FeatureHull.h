@@ -26,8 +26,8 @@ class FeatureHull
 public:
   /// Points that are not finite are left out. Without any point everything is outside.
   /// The margin is in the points' unit. Throws Aborted soon after the flag is set.
-  FeatureHull(
-    const std::vector<Eigen::Vector3d>& points, double margin, const CancellationFlag& stop = NeverCancelled);
+  FeatureHull(const std::vector<Eigen::Vector3d>& points, double margin,
+    const CancellationFlag& stop = NeverCancelled);
 
   /// Those of the points, all finite, that can be corners of their hull, and perhaps some more: a
   /// fraction of the many that lie well inside.

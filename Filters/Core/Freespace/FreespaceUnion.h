@@ -25,12 +25,14 @@ struct FreespaceUnionOptions
   double hullMargin = 0.01; ///< offset of the hull's planes to the outside, as a fraction of the
                             ///< diagonal of the region's box; >= 0, < 10; the paper's is 0; or
                             ///< AutomaticMargin: hullMarginCells counts
-  double hullMarginCells = 1.25; ///< the same in cells of the suggested lattice; >= 0. Matter on the
-                                 ///< hull, such as a floor, must be thick enough for the lattice
-  RegionOptions region;          ///< the hull is that of the features in this region
-  ResolutionOptions resolution;  ///< of the suggested lattice
-  double surroundings = 0.5; ///< around each camera inside the hull all is free so far, as a share of
-                             ///< the distance to the nearest features; in [0, 1); 0: nothing
+  double hullMarginCells =
+    1.25;                       ///< the same in cells of the suggested lattice; >= 0. Matter on the
+                                ///< hull, such as a floor, must be thick enough for the lattice
+  RegionOptions region;         ///< the hull is that of the features in this region
+  ResolutionOptions resolution; ///< of the suggested lattice
+  double surroundings =
+    0.5; ///< around each camera inside the hull all is free so far, as a share of
+         ///< the distance to the nearest features; in [0, 1); 0: nothing
 
   static constexpr double AutomaticMargin = -1;
   static constexpr int AutomaticViews = -1;
@@ -100,8 +102,14 @@ public:
   const RegionOfInterest& FeatureRegion() const { return this->Region.region; }
   /// The lattice that the features in the region ask for, along its longest side.
   int Cells() const { return this->Region.cells; }
-  double CellSide() const { return this->Region.cellSide; } ///< that they ask for, whatever the bounds of Cells
-  const std::vector<Eigen::Vector3d>& Features() const { return this->Region.features; } ///< in the region
+  double CellSide() const
+  {
+    return this->Region.cellSide;
+  } ///< that they ask for, whatever the bounds of Cells
+  const std::vector<Eigen::Vector3d>& Features() const
+  {
+    return this->Region.features;
+  } ///< in the region
   std::size_t NumberOfViews() const { return this->NumberOfMaps; }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
 
@@ -129,7 +137,7 @@ private:
   FreespaceUnionOptions Options;
   std::size_t NumberOfMaps;
   std::vector<std::unique_ptr<ViewFreespace>> Views; ///< the maps', then the cameras' surroundings
-  std::vector<int> SurroundedView;                   ///< of those after the maps', the camera's view
+  std::vector<int> SurroundedView; ///< of those after the maps', the camera's view
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;

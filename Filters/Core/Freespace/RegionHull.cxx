@@ -61,8 +61,7 @@ ViewFeatures FeaturesOfMap(const DisparityMap& map, std::size_t index)
   features.camera = map.camera;
   for (std::size_t i = 0; i < map.points.size(); ++i)
   {
-    const bool isOwn =
-      i >= map.sourceView.size() || map.sourceView[i] == static_cast<int>(index);
+    const bool isOwn = i >= map.sourceView.size() || map.sourceView[i] == static_cast<int>(index);
     if (map.points[i].allFinite() && (isOwn || map.sourceView[i] >= 0))
     {
       (isOwn ? features.points : features.inserted).push_back(map.points[i]);

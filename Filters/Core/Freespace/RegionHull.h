@@ -20,8 +20,8 @@ struct RegionHull
 {
   std::unique_ptr<FeatureHull> hull;
   RegionOfInterest region;
-  double cellSide = 0; ///< that the features ask for; 0 without any
-  int cells = 0;       ///< along the longest side of the region, for it
+  double cellSide = 0;                   ///< that the features ask for; 0 without any
+  int cells = 0;                         ///< along the longest side of the region, for it
   std::vector<Eigen::Vector3d> features; ///< of all views, in the region
 };
 

@@ -20,7 +20,8 @@ void RegionOptions::Check() const
     !(this->box.min().allFinite() && this->box.max().allFinite() &&
       (this->box.sizes().array() > 0).all()))
   {
-    throw Error("The region is no box: it has finite bounds x0,x1,y0,y1,z0,z1, each lower than its upper.");
+    throw Error(
+      "The region is no box: it has finite bounds x0,x1,y0,y1,z0,z1, each lower than its upper.");
   }
   if (!(this->lossForSize > 0 && this->lossForSize < 1 && this->lossAround > 0 &&
         this->lossAround < 1))
@@ -96,8 +97,8 @@ Sample SampleOfView(const std::vector<ViewFeatures>& views, std::size_t index, s
   return sample;
 }
 
-Sample TakeSample(const std::vector<ViewFeatures>& views, const ParallelFor& parallelFor,
-  const Progress& progress)
+Sample TakeSample(
+  const std::vector<ViewFeatures>& views, const ParallelFor& parallelFor, const Progress& progress)
 {
   const std::size_t most = std::max(FewestOfView, SampledFeatures / views.size());
   std::vector<Sample> ofViews(views.size());

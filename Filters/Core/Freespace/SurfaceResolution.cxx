@@ -48,8 +48,7 @@ double CellSide(const std::vector<ViewFeatures>& views, const Eigen::AlignedBox3
   return *middle;
 }
 
-int CellsAlong(
-  const Eigen::AlignedBox3d& box, double cellSide, const ResolutionOptions& options)
+int CellsAlong(const Eigen::AlignedBox3d& box, double cellSide, const ResolutionOptions& options)
 {
   const double longest = box.isEmpty() ? 0 : box.sizes().maxCoeff();
   const double cells = cellSide > 0 ? std::ceil(longest / cellSide) : 0;

@@ -17,10 +17,10 @@ namespace freespace
 struct BoardCalibrationOptions
 {
   Board board;
-  bool squarePixels = true;      ///< one focal length; else two
-  int maximumCoefficients = 5;   ///< of distortion: 0, 1 (k1), 2 (k2), 4 (p1 p2) or 5 (k3); fewer are
-                                 ///< used if the corners do not justify as many
-  int minimumCorners = 8;        ///< of an image that is used
+  bool squarePixels = true;    ///< one focal length; else two
+  int maximumCoefficients = 5; ///< of distortion: 0, 1 (k1), 2 (k2), 4 (p1 p2) or 5 (k3); fewer are
+                               ///< used if the corners do not justify as many
+  int minimumCorners = 8;      ///< of an image that is used
   double outlierThreshold = 4.0; ///< in standard deviations of the corners' errors; > 2
 
   /// Throws Error when a field is out of its range.

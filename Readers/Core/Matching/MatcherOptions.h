@@ -19,9 +19,9 @@ struct MatcherOptions
   double colorTolerance = 45; ///< mean difference on the better side of the edge, grey levels; > 0
   double maximumCost = 0.4;   ///< of a match, in [0, 1], see EdgeMatch
   double gradientLimit = 0.5; ///< change of disparity (pixels of the shortest baseline) for each
-                              ///< pixel along a chain that counts as continuous; > 0. A slanted surface
-                              ///< stays as steep when an image farther off is matched, too
-  int minimumRun = 4;         ///< tokens of a chain that are matched without a break; > 0
+    ///< pixel along a chain that counts as continuous; > 0. A slanted surface
+    ///< stays as steep when an image farther off is matched, too
+  int minimumRun = 4; ///< tokens of a chain that are matched without a break; > 0
 
   /// Throws Error when a field is out of its range.
   void Check() const;

@@ -140,7 +140,8 @@ public:
     this->Solve(coarse, false, pointIterations);
     summary.residualBefore = Median(this->Distances());
     this->Solve(coarse, true, this->Options.iterations / 2);
-    this->Solve(std::max(finest, perMedian * Median(this->Distances())), true, this->Options.iterations);
+    this->Solve(
+      std::max(finest, perMedian * Median(this->Distances())), true, this->Options.iterations);
     summary.residualAfter = Median(this->Distances());
     this->MoveCameras();
     summary.motion = this->ImageMotion();
@@ -179,7 +180,8 @@ private:
       Eigen::Map<Eigen::Vector3d>(this->Motions[i].data()) = turn.angle() * turn.axis();
       Eigen::Map<Eigen::Vector3d>(this->Motions[i].data() + 3) =
         (this->Cameras[i].t - R * this->Given[i].t) / this->Depths[i];
-      this->LogFocals[this->LensOf[i]] = std::log(this->Cameras[i].K(0, 0) / this->Given[i].K(0, 0));
+      this->LogFocals[this->LensOf[i]] =
+        std::log(this->Cameras[i].K(0, 0) / this->Given[i].K(0, 0));
     }
   }
 
@@ -203,7 +205,8 @@ private:
     }
     for (double& logFocal : this->LogFocals)
     {
-      if (!(moveCameras && this->Options.refineFocalLengths) && problem.HasParameterBlock(&logFocal))
+      if (!(moveCameras && this->Options.refineFocalLengths) &&
+        problem.HasParameterBlock(&logFocal))
       {
         problem.SetParameterBlockConstant(&logFocal);
       }

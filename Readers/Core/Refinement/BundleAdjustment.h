@@ -13,11 +13,12 @@ namespace freespace
 /// How cameras are adjusted to edges.
 struct BundleAdjustmentOptions
 {
-  double poseDeviation = 0.1; ///< of the given cameras in each of their six degrees of freedom, as a
-                              ///< motion of the scene's image in pixels; > 0
-  bool refineFocalLengths = false; ///< beside the poses
+  double poseDeviation =
+    0.1; ///< of the given cameras in each of their six degrees of freedom, as a
+         ///< motion of the scene's image in pixels; > 0
+  bool refineFocalLengths = false;     ///< beside the poses
   double focalLengthDeviation = 0.002; ///< of a given focal length, fraction of it; > 0
-  int iterations = 10; ///< at most, after half as many coarse ones; > 1
+  int iterations = 10;                 ///< at most, after half as many coarse ones; > 1
 
   /// Throws Error when a field is out of its range.
   void Check() const;

@@ -20,14 +20,16 @@ namespace freespace
 struct CameraRefinementOptions
 {
   BundleAdjustmentOptions adjustment;
-  int neighbors = 4;      ///< images that an image's edges are matched with; >= 2
-  double tolerance = 1.5; ///< of a third image's confirmation before the first adjustment, pixels: as
-                          ///< far as the given cameras may be off; > 0. Half of it in each round after
-  int rounds = 2;         ///< of matching and adjusting; > 0
+  int neighbors = 4; ///< images that an image's edges are matched with; >= 2
+  double tolerance =
+    1.5;          ///< of a third image's confirmation before the first adjustment, pixels: as
+                  ///< far as the given cameras may be off; > 0. Half of it in each round after
+  int rounds = 2; ///< of matching and adjusting; > 0
   std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
   std::size_t tracksPerImage = 400;   ///< matches that take part in the adjustment; > 0
-  double leastMotion = 0.12; ///< median motion of the images, pixels, for the cameras to be changed at
-                             ///< all: the noise of the edges alone moves them by 0.05 to 0.1; >= 0
+  double leastMotion =
+    0.12; ///< median motion of the images, pixels, for the cameras to be changed at
+          ///< all: the noise of the edges alone moves them by 0.05 to 0.1; >= 0
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -37,9 +39,9 @@ struct CameraRefinementOptions
 struct CameraRefinement
 {
   std::vector<CalibratedImage> images; ///< as given or refined, in the given order
-  bool isRefined = false; ///< false: the given cameras are as good as the edges can tell
-  std::size_t clusters = 0; ///< images around which edges were matched
-  std::size_t tracks = 0;   ///< of the last adjustment
+  bool isRefined = false;            ///< false: the given cameras are as good as the edges can tell
+  std::size_t clusters = 0;          ///< images around which edges were matched
+  std::size_t tracks = 0;            ///< of the last adjustment
   BundleAdjustmentSummary residuals; ///< of the first adjustment before, of the last one after, on
                                      ///< the first's and last's tracks
 };

@@ -14,7 +14,7 @@ namespace freespace
 /// Where an image shows a point of an edge: somewhere on the line through `position` along the edge.
 struct EdgeObservation
 {
-  int image = 0; ///< index of the camera
+  int image = 0;                                      ///< index of the camera
   Eigen::Vector2d position = Eigen::Vector2d::Zero(); ///< pixels, without lens distortion
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< across the edge, unit length
   double uncertainty = 1; ///< of the position across the edge, in that of a strong edge; > 0

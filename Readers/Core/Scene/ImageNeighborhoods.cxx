@@ -207,7 +207,7 @@ std::vector<Eigen::Vector3d> ImageNeighborhoods::Screen(std::size_t i) const
   constexpr int steps = 9;
   const Camera& camera = this->CameraOf(i);
   std::vector<Eigen::Vector3d> points;
-  for (int k = 0; k < steps * steps && this->Depths[i] > 0; ++k)
+  for (int k = 0; k<steps * steps&& this->Depths[i]> 0; ++k)
   {
     const Eigen::Vector2d pixel(
       (k % steps + 0.5) * camera.width / steps, (k / steps + 0.5) * camera.height / steps);

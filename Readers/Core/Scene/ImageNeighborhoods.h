@@ -56,8 +56,8 @@ public:
   std::vector<int> Within(std::size_t i, double angle) const;
 
 private:
-  std::vector<Eigen::Vector3d> PointsBefore(const SparseModel& model, const SparseTracks& tracks,
-    std::size_t image);
+  std::vector<Eigen::Vector3d> PointsBefore(
+    const SparseModel& model, const SparseTracks& tracks, std::size_t image);
   double SceneDepth(std::size_t i) const;
   std::vector<Eigen::Vector3d> Screen(std::size_t i) const;
   Eigen::Vector3d Target(std::size_t i) const;

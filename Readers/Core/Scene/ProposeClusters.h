@@ -27,8 +27,9 @@ struct ProposedCluster
 {
   int reference = 0; ///< index of the image
   std::vector<ProposedTriplet> triplets;
-  double quality = 0; ///< in (0, 2]: that of the first triplet, and of the second as far as it tells
-                      ///< something new
+  double quality =
+    0; ///< in (0, 2]: that of the first triplet, and of the second as far as it tells
+       ///< something new
   bool cross = false;
 };
 

@@ -84,8 +84,7 @@ EdgeChains SomePieces(const EdgeChains& all, std::size_t mostTokens)
       if (number++ % stride == 0)
       {
         const int end = std::min(begin + piece, all.begin[chain + 1]);
-        some.tokens.insert(
-          some.tokens.end(), all.tokens.begin() + begin, all.tokens.begin() + end);
+        some.tokens.insert(some.tokens.end(), all.tokens.begin() + begin, all.tokens.begin() + end);
         some.begin.push_back(static_cast<int>(some.tokens.size()));
       }
     }

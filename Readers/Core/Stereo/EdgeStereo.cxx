@@ -75,8 +75,8 @@ void EdgeStereoOptions::Check() const
 EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& images,
   const Cluster& cluster, const MatcherOptions& options, const CancellationFlag& stop)
 {
-  const ClusterMatches found = MatchCluster(
-    edges, images, cluster, options, std::numeric_limits<std::size_t>::max(), stop);
+  const ClusterMatches found =
+    MatchCluster(edges, images, cluster, options, std::numeric_limits<std::size_t>::max(), stop);
   EdgeView view;
   view.name = cluster.name;
   view.imageFile = cluster.reference;

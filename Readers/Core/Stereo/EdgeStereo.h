@@ -39,7 +39,8 @@ EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& imag
 
 /// The same for a single cluster, whose images are loaded from the scene's folder.
 EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, const EdgeStereoOptions& options, const CancellationFlag& stop = NeverCancelled);
+  const Cluster& cluster, const EdgeStereoOptions& options,
+  const CancellationFlag& stop = NeverCancelled);
 
 }
 

@@ -21,8 +21,8 @@ class EdgeStore
 {
 public:
   /// Keeps what was asked for last while the edges take up to `mostTokens` tokens (of 72 bytes).
-  EdgeStore(
-    const Scene& scene, const EdgeTokenOptions& options, std::size_t mostTokens = std::size_t(1) << 24);
+  EdgeStore(const Scene& scene, const EdgeTokenOptions& options,
+    std::size_t mostTokens = std::size_t(1) << 24);
 
   /// The edges of an image where a camera without distortion would see them. They depend on its
   /// intrinsics, not on its pose. Throws Error naming the file: missing, unreadable or of another size

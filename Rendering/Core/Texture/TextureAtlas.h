@@ -10,8 +10,8 @@ namespace freespace
 
 struct TextureAtlasOptions
 {
-  double texel = 0;   ///< side of a texel on the surface, an error if it does not fit; 0: the size of
-                      ///< the images' pixels on the surface, or larger
+  double texel = 0; ///< side of a texel on the surface, an error if it does not fit; 0: the size of
+                    ///< the images' pixels on the surface, or larger
   int largest = 8192; ///< side of the atlas, texels
   int gutter = 2;     ///< texels around each chart that repeat its border
   Eigen::Vector3d unseen = Eigen::Vector3d(178, 178, 178); ///< red, green, blue

@@ -26,7 +26,8 @@ TEST(ParallelForWithProgress, DoesAllOnce)
   for (const std::size_t count : { 0, 1, 7 })
   {
     std::vector<int> calls(count, 0);
-    ParallelForWithProgress(count, TwoThreads, {}, [&](std::size_t i, const CancellationFlag&) { ++calls[i]; });
+    ParallelForWithProgress(
+      count, TwoThreads, {}, [&](std::size_t i, const CancellationFlag&) { ++calls[i]; });
     EXPECT_EQ(calls, std::vector<int>(count, 1));
   }
 }
@@ -35,12 +36,15 @@ TEST(ParallelForWithProgress, BeginsWithTheMostWork)
 {
   const std::vector<double> work = { 1, 5, 0, 5, 2 };
   std::vector<std::size_t> order;
-  ParallelForWithProgress(work, SerialFor, {}, [&](std::size_t i, const CancellationFlag&) { order.push_back(i); });
+  ParallelForWithProgress(
+    work, SerialFor, {}, [&](std::size_t i, const CancellationFlag&) { order.push_back(i); });
   EXPECT_EQ(order, (std::vector<std::size_t>{ 1, 3, 4, 0, 2 }));
   std::vector<int> calls(work.size(), 0);
-  ParallelForWithProgress(work, TwoThreads, {}, [&](std::size_t i, const CancellationFlag&) { ++calls[i]; });
+  ParallelForWithProgress(
+    work, TwoThreads, {}, [&](std::size_t i, const CancellationFlag&) { ++calls[i]; });
   EXPECT_EQ(calls, std::vector<int>(work.size(), 1));
-  ParallelForWithProgress(std::vector<double>(), TwoThreads, {}, [](std::size_t, const CancellationFlag&) { FAIL(); });
+  ParallelForWithProgress(
+    std::vector<double>(), TwoThreads, {}, [](std::size_t, const CancellationFlag&) { FAIL(); });
 }
 
 TEST(ParallelForWithProgress, ShowsProgressFromTheCallersThreadAndStopsLongBodies)

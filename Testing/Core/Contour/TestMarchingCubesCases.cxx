@@ -57,8 +57,9 @@ void ForEachCase(Visit&& visit)
 
 bool OnOneFace(int edgeA, int edgeB)
 {
-  const int corners[4] = { MarchingCubesCases::Begin(edgeA), MarchingCubesCases::Begin(edgeA) | 1 << (edgeA >> 2),
-    MarchingCubesCases::Begin(edgeB), MarchingCubesCases::Begin(edgeB) | 1 << (edgeB >> 2) };
+  const int corners[4] = { MarchingCubesCases::Begin(edgeA),
+    MarchingCubesCases::Begin(edgeA) | 1 << (edgeA >> 2), MarchingCubesCases::Begin(edgeB),
+    MarchingCubesCases::Begin(edgeB) | 1 << (edgeB >> 2) };
   int ones = 7, zeros = 7;
   for (int c : corners)
   {
@@ -172,8 +173,10 @@ TEST(MarchingCubesCases, JoinedFacesHangTogether)
       {
         const int face = MarchingCubesCases::CommonFace(a, b);
         ASSERT_GE(face, 0);
-        const int ends[2] = { MarchingCubesCases::Begin(a), MarchingCubesCases::Begin(a) | 1 << (a >> 2) };
-        const int others[2] = { MarchingCubesCases::Begin(b), MarchingCubesCases::Begin(b) | 1 << (b >> 2) };
+        const int ends[2] = { MarchingCubesCases::Begin(a),
+          MarchingCubesCases::Begin(a) | 1 << (a >> 2) };
+        const int others[2] = { MarchingCubesCases::Begin(b),
+          MarchingCubesCases::Begin(b) | 1 << (b >> 2) };
         for (int corner : ends)
         {
           if (corner == others[0] || corner == others[1])

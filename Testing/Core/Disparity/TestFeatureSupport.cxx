@@ -50,8 +50,9 @@ std::vector<int> BruteForceSupport(const View& view, const FeatureSupportOptions
     {
       const double a = 1 / view.camera.Depth(view.points[i]);
       const double b = 1 / view.camera.Depth(view.points[j]);
-      support[i] += i != j && (view.imagePoints[i] - view.imagePoints[j]).norm() <= options.radius
-        && std::abs(a - b) <= options.disparityTolerance * std::max(a, b);
+      support[i] += i != j &&
+        (view.imagePoints[i] - view.imagePoints[j]).norm() <= options.radius &&
+        std::abs(a - b) <= options.disparityTolerance * std::max(a, b);
     }
   }
   return support;

@@ -139,7 +139,8 @@ void ExpectAll(const Views& views)
 void ExpectBody(const RegionOfInterest& region, const AlignedBox3d& body)
 {
   const double longest = body.sizes().maxCoeff();
-  const Vector3d room = Vector3d::Constant(0.3 * longest), slack = Vector3d::Constant(0.01 * longest);
+  const Vector3d room = Vector3d::Constant(0.3 * longest),
+                 slack = Vector3d::Constant(0.01 * longest);
   EXPECT_TRUE(AlignedBox3d(region.box.min() - slack, region.box.max() + slack).contains(body))
     << region.box.min().transpose() << " to " << region.box.max().transpose();
   EXPECT_TRUE(AlignedBox3d(body.min() - room, body.max() + room).contains(region.box))
@@ -164,8 +165,8 @@ TEST(RegionOfInterest, LeavesOutAFarTail)
     for (int i = 0; i < 3; ++i)
     {
       const double depth = std::exp(random.Uniform(std::log(48), std::log(440)));
-      view.points.push_back(view.camera.Unproject(
-        { random.Uniform(0, 1500), random.Uniform(0, 1000) }, depth));
+      view.points.push_back(
+        view.camera.Unproject({ random.Uniform(0, 1500), random.Uniform(0, 1000) }, depth));
     }
   }
   const RegionOfInterest region = Find(views);
@@ -183,12 +184,18 @@ TEST(RegionOfInterest, FindsAStatueBeforeAFarWall)
     for (int i = 0; i < 24; ++i)
     {
       const double angle = i * M_PI / 12;
-      views.push_back(CameraAt({ 1.5 * std::cos(angle), 1.5 * std::sin(angle), 0.6 }, { 0, 0, 0.5 }));
+      views.push_back(
+        CameraAt({ 1.5 * std::cos(angle), 1.5 * std::sin(angle), 0.6 }, { 0, 0, 0.5 }));
     }
     // The near side only, as a body hides its back.
     const auto isNear = [](const ViewFeatures& view, const Vector3d& point)
     { return Vector2d(point.head<2>()).dot(Vector2d(view.camera.Center().head<2>())) > 0; };
-    Add(views, 600, [&] { return random.In({ -0.25, -0.2, 0 }, { 0.25, 0.2, 1 }); }, isNear);
+    Add(
+      views, 600,
+      [&] {
+        return random.In({ -0.25, -0.2, 0 }, { 0.25, 0.2, 1 });
+      },
+      isNear);
     const AlignedBox3d body = BoundsOf(views);
     Add(views, 600,
       [&]

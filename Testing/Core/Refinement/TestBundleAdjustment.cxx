@@ -32,7 +32,8 @@ struct EdgeScene
     {
       const Eigen::Vector3d point(box(this->Random), box(this->Random), 1 + box(this->Random));
       const Eigen::Vector3d along =
-        Eigen::Vector3d(normal(this->Random), normal(this->Random), normal(this->Random)).normalized();
+        Eigen::Vector3d(normal(this->Random), normal(this->Random), normal(this->Random))
+          .normalized();
       EdgeTrack& track = this->Tracks.emplace_back();
       track.point = point;
       for (int i = 0; i < 4; ++i)

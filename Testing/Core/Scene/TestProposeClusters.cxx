@@ -217,7 +217,8 @@ TEST(ProposeClusters, RingAndWideTop)
   EXPECT_TRUE(proposal.alone.empty());
   const std::set<int> references = References(proposal.clusters);
   EXPECT_EQ(std::count_if(references.begin(), references.end(), [](int i) { return i >= 40; }), 8);
-  const auto ring = std::count_if(references.begin(), references.end(), [](int i) { return i < 40; });
+  const auto ring =
+    std::count_if(references.begin(), references.end(), [](int i) { return i < 40; });
   EXPECT_LT(ring, 34) << "nine degrees apart: denser than needed";
   EXPECT_GE(ring, 18);
   for (int i = 0; i < 40; ++i)

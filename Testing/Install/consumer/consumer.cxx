@@ -14,8 +14,8 @@ int main()
   support->Update();
   vtkNew<vtkViewBlocksReader> reader;
   reader->SetFileName("none.vtm");
-  return support->GetOutput()->GetNumberOfBlocks() == 0 && vtkSurfaceWriter::CanWriteFile("a.ply")
-      && !vtkSurfaceWriter::CanWriteFile("a.txt")
+  return support->GetOutput()->GetNumberOfBlocks() == 0 &&
+      vtkSurfaceWriter::CanWriteFile("a.ply") && !vtkSurfaceWriter::CanWriteFile("a.txt")
     ? 0
     : 1;
 }

@@ -79,9 +79,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
     ->check(NonNegative())
     ->capture_default_str();
-  command
-    ->add_option(
-      "--min-views", settings->minimumViews, "So many views make a point free")
+  command->add_option("--min-views", settings->minimumViews, "So many views make a point free")
     ->check(CLI::Range(1, 1000000))
     ->capture_default_str();
   command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");

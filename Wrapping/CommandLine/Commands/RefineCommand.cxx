@@ -31,13 +31,14 @@ void Refine(const Settings& settings)
   CameraRefinementOptions options;
   options.adjustment.refineFocalLengths = settings.focalLengths;
   EdgeStore edges(scene, EdgeTokenOptions());
-  const CameraRefinement refined = RefineCameras(
-    scene, model, edges, MatcherOptions(), options, SMPParallelFor, Progress());
+  const CameraRefinement refined =
+    RefineCameras(scene, model, edges, MatcherOptions(), options, SMPParallelFor, Progress());
   WriteColmapModel(WithCameras(model, refined.images), settings.output,
     settings.text ? ColmapFormat::Text : ColmapFormat::Binary);
   char text[200];
   std::snprintf(text, sizeof(text),
-    "%zu of %zu images matched, %zu tracks; median distance across the edges %.3f -> %.3f pixels%s\n",
+    "%zu of %zu images matched, %zu tracks; median distance across the edges %.3f -> %.3f "
+    "pixels%s\n",
     refined.clusters, model.images.size(), refined.tracks, refined.residuals.residualBefore,
     refined.residuals.residualAfter,
     refined.isRefined ? "" : ": the cameras fit as they are, and are written unchanged");

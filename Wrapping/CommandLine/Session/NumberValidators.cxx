@@ -27,8 +27,7 @@ CLI::Validator NonNegative()
     [](const std::string& text)
     {
       const double value = FiniteNumber(text).value_or(-1);
-      return value >= 0 ? std::string()
-                                                 : "'" + text + "' is not a number of 0 or more";
+      return value >= 0 ? std::string() : "'" + text + "' is not a number of 0 or more";
     },
     "NUMBER >= 0");
 }
@@ -39,8 +38,7 @@ CLI::Validator Positive()
     [](const std::string& text)
     {
       const double value = FiniteNumber(text).value_or(-1);
-      return value > 0 ? std::string()
-                                                : "'" + text + "' is not a number above 0";
+      return value > 0 ? std::string() : "'" + text + "' is not a number above 0";
     },
     "NUMBER > 0");
 }

@@ -100,7 +100,8 @@ void ContourStage::AddOptions(CLI::App& command)
     ->group("Surface");
   command
     .add_flag("--observed", this->Observed,
-      "Keep only what was seen: an open surface without the hull and the silhouette walls, but with "
+      "Keep only what was seen: an open surface without the hull and the silhouette walls, but "
+      "with "
       "what has features beside it")
     ->group("Surface");
 }
@@ -131,9 +132,10 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
   const int cells = this->Cells == "auto" ? -1 : std::stoi(this->Cells);
   // As thick as it is where the lattice is chosen, too.
   phi->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
-      : cells > 0 ? FreespaceUnionOptions().hullMarginCells / cells
-                  : FreespaceUnionOptions::AutomaticMargin);
-  phi->SetMinimumViews(this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews : std::stoi(this->MinimumViews));
+      : cells > 0                          ? FreespaceUnionOptions().hullMarginCells / cells
+                                           : FreespaceUnionOptions::AutomaticMargin);
+  phi->SetMinimumViews(this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews
+                                                    : std::stoi(this->MinimumViews));
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
   contour->SetCells(cells);

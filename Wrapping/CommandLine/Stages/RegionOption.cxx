@@ -19,8 +19,8 @@ bool RegionOption::ReadBounds(const std::string& text, std::array<double, 6>& b)
   bool isBox = areSix;
   for (int axis = 0; axis < 3 && isBox; ++axis)
   {
-    isBox = std::isfinite(b[2 * axis]) && std::isfinite(b[2 * axis + 1]) &&
-      b[2 * axis] < b[2 * axis + 1];
+    isBox =
+      std::isfinite(b[2 * axis]) && std::isfinite(b[2 * axis + 1]) && b[2 * axis] < b[2 * axis + 1];
   }
   return isBox;
 }
@@ -28,9 +28,9 @@ bool RegionOption::ReadBounds(const std::string& text, std::array<double, 6>& b)
 std::string RegionOption::Fault(const std::string& text)
 {
   std::array<double, 6> bounds{};
-  return text == "auto" || text == "all" || ReadBounds(text, bounds)
-    ? ""
-    : "'" + text + "' is no region: it is auto, all, or x0,x1,y0,y1,z0,z1, each lower than its upper.";
+  return text == "auto" || text == "all" || ReadBounds(text, bounds) ? ""
+                                                                     : "'" + text +
+      "' is no region: it is auto, all, or x0,x1,y0,y1,z0,z1, each lower than its upper.";
 }
 
 void RegionOption::AddTo(CLI::App& command, const std::string& group)

@@ -37,7 +37,8 @@ void StereoStage::AddOptions(CLI::App& command)
     ->group("Stereo");
   command
     .add_option("--refine-cameras", this->RefineCameras,
-      "The edges of the images correct the cameras' poses by the fraction of a pixel that these are "
+      "The edges of the images correct the cameras' poses by the fraction of a pixel that these "
+      "are "
       "off: on, off, or auto, which is on in scenes of up to 200 images; cameras that fit stay as "
       "they are")
     ->check(CLI::IsMember({ "auto", "on", "off" }))

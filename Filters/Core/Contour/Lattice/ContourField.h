@@ -15,9 +15,9 @@ namespace freespace
 enum class SurfaceKind : unsigned char
 {
   Feature = 0, ///< a triangle of a view's disparity map
-  Wall = 1,    ///< a silhouette wall: over the border of a view's map, through the camera's centre, or
-               ///< a triangle that the view sees edge-on because it spans a jump in depth
-  Hull = 2     ///< the convex hull of the features, or the bounds of the lattice
+  Wall = 1, ///< a silhouette wall: over the border of a view's map, through the camera's centre, or
+            ///< a triangle that the view sees edge-on because it spans a jump in depth
+  Hull = 2  ///< the convex hull of the features, or the bounds of the lattice
 };
 
 /// What a point of the surface is.

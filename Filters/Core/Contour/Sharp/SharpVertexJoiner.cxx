@@ -171,8 +171,7 @@ void SharpVertexJoiner::FindFaceLinks(const Progress& progress, const ParallelFo
     if (!choice.isLost &&
       this->Blocks.FindSharpFace(*choice.vertex.owner, sharp, choice.face, sharpFace))
     {
-      choice.vertex.owner->links.push_back(
-        { BlockMesh::SharpOf(choice.vertex).cell, choice.face });
+      choice.vertex.owner->links.push_back({ BlockMesh::SharpOf(choice.vertex).cell, choice.face });
       sharpFace.other.owner->links.push_back(
         { BlockMesh::SharpOf(sharpFace.other).cell, choice.face ^ 1 });
     }
