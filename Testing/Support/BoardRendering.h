@@ -63,16 +63,27 @@ private:
     return { board.columns + more, board.rows + more };
   }
 
+  static void DrawCharuco(const Board& board, cv::Mat& texture)
+  {
+    const float square = static_cast<float>(board.square);
+    const float marker = static_cast<float>(board.marker);
+    const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_250);
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7)
+    cv::aruco::CharucoBoard({ board.columns, board.rows }, square, marker, dictionary)
+      .generateImage(texture.size(), texture);
+#else
+    cv::aruco::CharucoBoard::create(board.columns, board.rows, square, marker, dictionary)
+      ->draw(texture.size(), texture);
+#endif
+  }
+
   static cv::Mat Draw(const Board& board)
   {
     const cv::Size squares = Squares(board);
     cv::Mat texture(squares.height * pixelsPerSquare, squares.width * pixelsPerSquare, CV_8U);
     if (board.kind == Board::Kind::Charuco)
     {
-      cv::aruco::CharucoBoard::create(board.columns, board.rows, static_cast<float>(board.square),
-        static_cast<float>(board.marker),
-        cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_250))
-        ->draw(texture.size(), texture);
+      DrawCharuco(board, texture);
       return texture;
     }
     for (int y = 0; y < texture.rows; ++y)

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -48,6 +49,15 @@ using VertexFlags = Mesh::Property_map<VertexIndex, bool>;
 using FaceErrors = Mesh::Property_map<FaceIndex, double>;
 using FaceLabels = Mesh::Property_map<FaceIndex, std::int64_t>;
 
+// CGAL 6 took the standard library's.
+#if CGAL_VERSION_MAJOR >= 6
+template <typename Value>
+using Optional = std::optional<Value>;
+#else
+template <typename Value>
+using Optional = boost::optional<Value>;
+#endif
+
 /// Collapses between two reports of the progress.
 constexpr std::size_t StepsAtATime = 512;
 
@@ -76,10 +86,11 @@ struct WithinBound
   State* state;
 
   template <typename Profile>
-  boost::optional<typename Profile::Point> operator()(
-    const Profile& profile, boost::optional<typename Profile::Point> placement) const
+  Optional<typename Profile::Point> operator()(
+    const Profile& profile, Optional<typename Profile::Point> placement) const
   {
-    return placement && this->Check(profile, *placement) ? placement : boost::none;
+    return placement && this->Check(profile, *placement) ? placement
+                                                         : Optional<typename Profile::Point>();
   }
 
   template <typename Profile>
@@ -170,7 +181,7 @@ struct RoundedPlacement
   SMS::LindstromTurk_placement<Mesh> placement;
 
   template <typename Profile>
-  boost::optional<typename Profile::Point> operator()(const Profile& profile) const
+  Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
     const auto exact = this->placement(profile);
     if (!exact || !this->isSingle)
@@ -193,8 +204,7 @@ struct Watcher : SMS::Edge_collapse_visitor_base<Mesh>
   {
   }
 
-  void OnSelected(
-    const Profile&, const boost::optional<double>&, std::size_t initial, std::size_t current)
+  void OnSelected(const Profile&, const Optional<double>&, std::size_t initial, std::size_t current)
   {
     if (++this->state->steps % StepsAtATime == 0)
     {

@@ -41,13 +41,40 @@ constexpr DictionaryName dictionaries[] = { { "DICT_4X4_50", cv::aruco::DICT_4X4
   { "DICT_APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10 },
   { "DICT_APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11 } };
 
-cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board)
+// OpenCV 4.7 made dictionaries and boards values; its free functions still take pointers.
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7)
+cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number)
+{
+  return cv::makePtr<cv::aruco::Dictionary>(cv::aruco::getPredefinedDictionary(number));
+}
+
+cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(
+  const Board& board, const cv::Ptr<cv::aruco::Dictionary>& dictionary)
+{
+  return cv::makePtr<cv::aruco::CharucoBoard>(cv::Size(board.columns, board.rows),
+    static_cast<float>(board.square), static_cast<float>(board.marker), *dictionary);
+}
+#else
+cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number)
+{
+  return cv::aruco::getPredefinedDictionary(number);
+}
+
+cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(
+  const Board& board, const cv::Ptr<cv::aruco::Dictionary>& dictionary)
+{
+  return cv::aruco::CharucoBoard::create(board.columns, board.rows,
+    static_cast<float>(board.square), static_cast<float>(board.marker), dictionary);
+}
+#endif
+
+cv::Ptr<cv::aruco::Dictionary> FindDictionary(const Board& board)
 {
   for (const DictionaryName& entry : dictionaries)
   {
     if (board.dictionary == entry.name)
     {
-      const auto dictionary = cv::aruco::getPredefinedDictionary(entry.number);
+      const auto dictionary = PredefinedDictionary(entry.number);
       if (board.columns * board.rows / 2 > dictionary->bytesList.rows)
       {
         throw Error("The dictionary " + board.dictionary + " has " +
@@ -55,8 +82,7 @@ cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(const Board& board)
           std::to_string(board.columns) + " x " + std::to_string(board.rows) + " squares needs " +
           std::to_string(board.columns * board.rows / 2) + ".");
       }
-      return cv::aruco::CharucoBoard::create(board.columns, board.rows,
-        static_cast<float>(board.square), static_cast<float>(board.marker), dictionary);
+      return dictionary;
     }
   }
   throw Error("There is no dictionary of markers called '" + board.dictionary + "'.");
@@ -75,10 +101,11 @@ BoardCorners CornersFromOpenCV(const std::vector<int>& ids, const std::vector<cv
 
 BoardCorners DetectCharuco(const cv::Mat& gray, const Board& board)
 {
-  const auto charuco = MakeCharuco(board);
+  const auto dictionary = FindDictionary(board);
+  const auto charuco = MakeCharuco(board, dictionary);
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> markerIds, ids;
-  cv::aruco::detectMarkers(gray, charuco->dictionary, markers, markerIds);
+  cv::aruco::detectMarkers(gray, dictionary, markers, markerIds);
   std::vector<cv::Point2f> points;
   if (!markerIds.empty())
   {

@@ -10,6 +10,8 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 
+#include <optional>
+
 namespace freespace
 {
 
