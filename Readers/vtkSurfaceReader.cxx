@@ -5,20 +5,23 @@
 #include "Common/FileExtension.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
-#include "Text/WholeFile.h"
+#include "Surface/SurfaceFile.h"
+#include "XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
-#include <vtkPLYReader.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
-#include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <cstring>
 
 vtkStandardNewMacro(vtkSurfaceReader);
 
@@ -28,56 +31,107 @@ namespace
 // What the inner reader finds wrong is told below, in a sentence that names the file.
 void Ignore(vtkObject*, unsigned long, void*, void*) {}
 
-template <typename Reader>
-vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& fileName)
+vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
 {
-  auto reader = vtkSmartPointer<Reader>::New();
+  freespace::CheckXMLFile(fileName);
+  vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(fileName.c_str());
   vtkNew<vtkCallbackCommand> silence;
   silence->SetCallback(Ignore);
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silence);
-  return reader;
+  reader->SetReaderErrorObserver(silence);
+  reader->SetParserErrorObserver(silence);
+  reader->Update();
+  vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
+  freespace::CheckCells(surface, fileName);
+  return surface;
 }
 
-vtkSmartPointer<vtkAlgorithm> ReaderByEnding(const std::string& fileName)
+// The viewpoint of a surface is a comment of its file, see SurfaceViewpoint.h.
+void AddViewpoint(const freespace::SurfaceFile& file, vtkPolyData* surface)
+{
+  for (const std::string& comment : file.comments)
+  {
+    if (const auto viewpoint = freespace::ViewpointFromComment(comment))
+    {
+      freespace::AddCamera(surface, *viewpoint, "");
+    }
+  }
+}
+
+vtkSmartPointer<vtkPolyData> SurfaceFrom(const freespace::SurfaceFile& file)
+{
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(file.isDouble ? VTK_DOUBLE : VTK_FLOAT);
+  points->SetNumberOfPoints(static_cast<vtkIdType>(file.points.size()));
+  for (std::size_t i = 0; i < file.points.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), file.points[i].data());
+  }
+  surface->SetPoints(points);
+  vtkNew<vtkCellArray> polygons;
+  polygons->AllocateExact(
+    static_cast<vtkIdType>(file.ends.size()), static_cast<vtkIdType>(file.corners.size()));
+  std::int64_t begin = 0;
+  for (std::int64_t end : file.ends)
+  {
+    polygons->InsertNextCell(static_cast<int>(end - begin));
+    for (; begin < end; ++begin)
+    {
+      polygons->InsertCellPoint(file.corners[static_cast<std::size_t>(begin)]);
+    }
+  }
+  surface->SetPolys(polygons);
+  if (!file.colors.empty() && file.colors.size() == file.points.size())
+  {
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetName("RGB");
+    colors->SetNumberOfComponents(3);
+    colors->SetNumberOfTuples(static_cast<vtkIdType>(file.colors.size()));
+    std::memcpy(colors->GetPointer(0), file.colors.data(), 3 * file.colors.size());
+    surface->GetPointData()->SetScalars(colors);
+  }
+  AddViewpoint(file, surface);
+  return surface;
+}
+
+vtkSmartPointer<vtkPolyData> ReadByEnding(const std::string& fileName)
 {
   const std::string ending = freespace::LowerCaseExtension(fileName);
   if (ending == ".ply")
   {
-    freespace::CheckWholePLY(fileName);
-    return MakeReader<vtkPLYReader>(fileName);
+    return SurfaceFrom(freespace::ReadPLY(fileName));
   }
   if (ending == ".stl")
   {
-    freespace::CheckWholeSTL(fileName);
-    return MakeReader<vtkSTLReader>(fileName);
+    return SurfaceFrom(freespace::ReadSTL(fileName));
   }
   if (ending == ".obj")
   {
-    return MakeReader<vtkOBJReader>(fileName);
+    return SurfaceFrom(freespace::ReadOBJ(fileName));
   }
   if (ending == ".vtp")
   {
-    freespace::CheckWholeVTKFile(fileName);
-    return MakeReader<vtkXMLPolyDataReader>(fileName);
+    return ReadVTP(fileName);
   }
   throw freespace::Error(
     "Cannot read '" + fileName + "': a surface's file name ends in .ply, .stl, .obj or .vtp.");
 }
 
-// A .vtp has it in its field data, which came with the rest.
-void AddViewpoint(vtkAlgorithm* reader, vtkPolyData* surface)
+bool IsFinite(vtkPoints* points)
 {
-  auto* ply = vtkPLYReader::SafeDownCast(reader);
-  vtkStringArray* comments = ply ? ply->GetComments() : nullptr;
-  for (vtkIdType i = 0; comments && i < comments->GetNumberOfValues(); ++i)
+  double point[3];
+  for (vtkIdType i = 0; points && i < points->GetNumberOfPoints(); ++i)
   {
-    if (const auto viewpoint = freespace::ViewpointFromComment(comments->GetValue(i)))
+    points->GetPoint(i, point);
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
     {
-      freespace::AddCamera(surface, *viewpoint, "");
+      return false;
     }
   }
+  return true;
 }
 
 }
@@ -93,9 +147,14 @@ int vtkSurfaceReader::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   try
   {
-    const auto reader = ReaderByEnding(this->FileName);
+    const auto surface = ReadByEnding(this->FileName);
+    if (!IsFinite(surface->GetPoints()))
+    {
+      throw freespace::Error(
+        "Cannot read " + this->FileName + ": it has a point that is not finite.");
+    }
     vtkNew<vtkTriangleFilter> triangles;
-    triangles->SetInputConnection(reader->GetOutputPort());
+    triangles->SetInputData(surface);
     triangles->PassVertsOff();
     triangles->PassLinesOff();
     triangles->Update();
@@ -105,7 +164,6 @@ int vtkSurfaceReader::RequestData(
         "Cannot read " + this->FileName + ": it is truncated, or holds no surface.");
     }
     output->ShallowCopy(triangles->GetOutput());
-    AddViewpoint(reader, output);
   }
   catch (const std::exception& error)
   {

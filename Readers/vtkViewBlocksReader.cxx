@@ -3,19 +3,18 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
-#include "Text/WholeFile.h"
+#include "XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkXMLDataElement.h>
+#include <vtkPolyData.h>
 #include <vtkXMLMultiBlockDataReader.h>
-#include <vtkXMLUtilities.h>
 
 #include <filesystem>
-#include <vector>
+#include <string>
 
 vtkStandardNewMacro(vtkViewBlocksReader);
 
@@ -28,39 +27,17 @@ void CountError(vtkObject*, unsigned long, void* count, void*)
   ++*static_cast<int*>(count);
 }
 
-// The files of the blocks that a .vtm names, relative to it.
-void CollectBlockFiles(vtkXMLDataElement* element, std::vector<std::string>& files)
+void CheckFiles(const std::string& fileName)
 {
-  for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+  for (const std::string& file : freespace::CheckXMLFile(fileName))
   {
-    vtkXMLDataElement* nested = element->GetNestedElement(i);
-    if (const char* file = nested->GetAttribute("file"))
-    {
-      files.push_back(file);
-    }
-    CollectBlockFiles(nested, files);
-  }
-}
-
-void CheckFilesAreWhole(const std::string& fileName)
-{
-  freespace::CheckWholeVTKFile(fileName);
-  vtkSmartPointer<vtkXMLDataElement> root;
-  root.TakeReference(vtkXMLUtilities::ReadElementFromFile(fileName.c_str()));
-  std::vector<std::string> files;
-  if (root)
-  {
-    CollectBlockFiles(root, files);
-  }
-  for (const std::string& file : files)
-  {
-    freespace::CheckWholeVTKFile((std::filesystem::path(fileName).parent_path() / file).string());
+    freespace::CheckXMLFile((std::filesystem::path(fileName).parent_path() / file).string());
   }
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> ReadWhole(const std::string& fileName)
 {
-  CheckFilesAreWhole(fileName);
+  CheckFiles(fileName);
   int errors = 0;
   vtkNew<vtkCallbackCommand> onError;
   onError->SetCallback(CountError);
@@ -85,6 +62,13 @@ void CheckBlocks(vtkMultiBlockDataSet* blocks, const std::string& fileName)
 {
   try
   {
+    for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+    {
+      if (auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(i)))
+      {
+        freespace::CheckCells(block, fileName);
+      }
+    }
     freespace::ViewsFromBlocks(blocks);
   }
   catch (const freespace::Error& error)

@@ -18,6 +18,9 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <climits>
+#include <cmath>
+
 namespace freespace
 {
 
@@ -36,16 +39,45 @@ void AddFieldArray(vtkDataObject* block, const char* name, const double* values,
   block->GetFieldData()->AddArray(array);
 }
 
-vtkDataArray* RequiredArray(
-  vtkFieldData* data, const char* name, int components, vtkIdType tuples, const std::string& block)
+[[noreturn]] void ThrowNoArray(const std::string& block, const char* name, const std::string& shape)
+{
+  throw Error("View '" + block + "' has no array " + name + " of " + shape + ".");
+}
+
+// An array of the field data: so many values in all.
+vtkDataArray* FieldArray(vtkFieldData* data, const char* name, int values, const std::string& block)
 {
   vtkDataArray* array = data->GetArray(name);
-  if (!array || array->GetNumberOfComponents() * array->GetNumberOfTuples() != components * tuples)
+  if (!array || array->GetNumberOfComponents() * array->GetNumberOfTuples() != values)
   {
-    throw Error("View '" + block + "' has no array " + name + " of " +
-      std::to_string(components * tuples) + " values.");
+    ThrowNoArray(block, name, std::to_string(values) + " values");
   }
   return array;
+}
+
+vtkDataArray* PointArray(
+  vtkPolyData* data, const char* name, int components, const std::string& block)
+{
+  vtkDataArray* array = data->GetPointData()->GetArray(name);
+  const vtkIdType points = data->GetNumberOfPoints();
+  if (!array || array->GetNumberOfComponents() != components ||
+    array->GetNumberOfTuples() != points)
+  {
+    ThrowNoArray(block, name,
+      std::to_string(points) + " tuples of " + std::to_string(components) + " components");
+  }
+  return array;
+}
+
+// A number that comes as a double, where an array is of such.
+int IntFrom(double value, const std::string& block)
+{
+  if (!(std::abs(value) <= INT_MAX))
+  {
+    throw Error(
+      "View '" + block + "' has a number that is not finite or too large for what it counts.");
+  }
+  return static_cast<int>(value);
 }
 
 // Single-row arrays come as one tuple or as many tuples of one component, after a round trip.
@@ -81,9 +113,9 @@ void AddCamera(vtkDataObject* block, const Camera& camera, const std::string& im
 Camera CameraFromBlock(vtkDataObject* block, const std::string& name)
 {
   vtkFieldData* field = block->GetFieldData();
-  vtkDataArray* intrinsics = RequiredArray(field, "CameraIntrinsics", 9, 1, name);
-  vtkDataArray* camFromWorld = RequiredArray(field, "CameraFromWorld", 12, 1, name);
-  vtkDataArray* size = RequiredArray(field, "ImageSize", 2, 1, name);
+  vtkDataArray* intrinsics = FieldArray(field, "CameraIntrinsics", 9, name);
+  vtkDataArray* camFromWorld = FieldArray(field, "CameraFromWorld", 12, name);
+  vtkDataArray* size = FieldArray(field, "ImageSize", 2, name);
   Camera camera;
   for (int i = 0; i < 9; ++i)
   {
@@ -93,8 +125,8 @@ Camera CameraFromBlock(vtkDataObject* block, const std::string& name)
   {
     (i % 4 < 3 ? camera.R(i / 4, i % 4) : camera.t(i / 4)) = FlatValue(camFromWorld, i);
   }
-  camera.width = static_cast<int>(FlatValue(size, 0));
-  camera.height = static_cast<int>(FlatValue(size, 1));
+  camera.width = IntFrom(FlatValue(size, 0), name);
+  camera.height = IntFrom(FlatValue(size, 1), name);
   const bool usable = camera.K.allFinite() && camera.R.allFinite() && camera.t.allFinite() &&
     camera.K.determinant() != 0 && camera.width > 0 && camera.height > 0;
   if (!usable)
@@ -160,8 +192,7 @@ void ReadPoints(vtkPolyData* block, View& view)
   {
     return;
   }
-  vtkDataArray* imagePoints =
-    RequiredArray(block->GetPointData(), "ImagePoint", 2, count, view.name);
+  vtkDataArray* imagePoints = PointArray(block, "ImagePoint", 2, view.name);
   for (vtkIdType i = 0; i < count; ++i)
   {
     block->GetPoint(i, view.points[i].data());
@@ -312,11 +343,12 @@ DisparityMap MapFromBlock(vtkPolyData* block, const std::string& name, int ownIn
   static_cast<View&>(map) = ViewFromBlock(block, name);
   ReadTriangles(block, map);
   map.sourceView.assign(map.points.size(), ownIndex);
-  if (vtkDataArray* source = block->GetPointData()->GetArray("SourceView"))
+  if (block->GetPointData()->HasArray("SourceView"))
   {
+    vtkDataArray* source = PointArray(block, "SourceView", 1, name);
     for (std::size_t i = 0; i < map.sourceView.size(); ++i)
     {
-      map.sourceView[i] = static_cast<int>(source->GetComponent(static_cast<vtkIdType>(i), 0));
+      map.sourceView[i] = IntFrom(source->GetComponent(static_cast<vtkIdType>(i), 0), name);
     }
   }
   return map;

@@ -13,55 +13,132 @@ namespace freespace
 namespace
 {
 
-// Features sorted into square cells as wide as the radius, so that neighbours lie in 3x3 cells.
+constexpr int mostSupport = 1000;
+constexpr int mostTests = 16000; // of distances, for a feature and a cell
+
+// Features sorted into square cells, and in a cell by their disparity: those of one cell lie within the
+// radius of each other, and neighbours within the 5x5 cells about one.
 class CellGrid
 {
 public:
   CellGrid(const std::vector<Eigen::Vector2d>& pixels, const std::vector<double>& disparity,
-    double cellSize, const Camera& camera)
-    : CellSize(std::max({ cellSize, camera.width / 4096.0, camera.height / 4096.0 }))
+    double radius, const Camera& camera)
+    : Pixels(pixels)
+    , Disparity(disparity)
+    , Radius(radius)
+    , CellSize(std::max({ radius / std::sqrt(2.0), camera.width / 4096.0, camera.height / 4096.0 }))
+    , Reach(radius <= this->CellSize ? 1 : 2)
     , Columns(static_cast<int>(camera.width / this->CellSize) + 1)
     , Rows(static_cast<int>(camera.height / this->CellSize) + 1)
+    , Order(ByDisparity(disparity))
     , Members(static_cast<std::size_t>(this->Columns) * this->Rows,
         [&](const auto& add)
         {
-          for (std::size_t i = 0; i < pixels.size(); ++i)
+          for (std::size_t i : this->Order)
           {
-            if (disparity[i] > 0)
-            {
-              const std::size_t row = this->Row(pixels[i].y());
-              add(row * this->Columns + this->Column(pixels[i].x()), i);
-            }
+            add(this->CellOf(pixels[i]), i);
           }
         })
   {
   }
 
-  template <typename Visitor>
-  void VisitNeighborhood(const Eigen::Vector2d& pixel, Visitor&& visit) const
+  // How many features within the radius agree with one's disparity, itself among them. Counts in its own
+  // cell, which may be many, take a binary search, and those in others end at `most`.
+  int Count(std::size_t feature, double tolerance, int most) const
   {
-    const int row = this->Row(pixel.y()), column = this->Column(pixel.x());
-    for (int r = std::max(0, row - 1); r <= std::min(this->Rows - 1, row + 1); ++r)
+    const int row = this->Row(this->Pixels[feature].y());
+    const int column = this->Column(this->Pixels[feature].x());
+    int count = 0;
+    for (int ring = 0; ring <= this->Reach; ++ring)
     {
-      const std::size_t first = static_cast<std::size_t>(r) * this->Columns;
-      const auto members = this->Members.Between(
-        first + std::max(0, column - 1), first + std::min(this->Columns - 1, column + 1) + 1);
-      std::for_each(members.begin(), members.end(), visit);
+      for (int r = row - ring; r <= row + ring; ++r)
+      {
+        const int step = std::abs(r - row) == ring ? 1 : 2 * ring;
+        for (int c = column - ring; c <= column + ring; c += step)
+        {
+          if (r >= 0 && r < this->Rows && c >= 0 && c < this->Columns)
+          {
+            count += this->CountIn(
+              static_cast<std::size_t>(r) * this->Columns + c, feature, tolerance, most - count);
+          }
+        }
+      }
     }
+    return count;
   }
 
 private:
-  // Features outside the image, which is allowed, share the cells on its border.
+  static std::vector<std::size_t> ByDisparity(const std::vector<double>& disparity)
+  {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < disparity.size(); ++i)
+    {
+      if (disparity[i] > 0)
+      {
+        order.push_back(i);
+      }
+    }
+    std::stable_sort(order.begin(), order.end(),
+      [&disparity](std::size_t a, std::size_t b) { return disparity[a] < disparity[b]; });
+    return order;
+  }
+
+  int CountIn(std::size_t cell, std::size_t feature, double tolerance, int most) const
+  {
+    const auto members = this->Members[cell];
+    const double own = this->Disparity[feature];
+    const auto agrees = [&](std::size_t j)
+    {
+      const double other = this->Disparity[j];
+      return std::abs(own - other) <= tolerance * std::max(own, other);
+    };
+    const auto begin = std::partition_point(members.begin(), members.end(),
+      [&](std::size_t j) { return this->Disparity[j] < own && !agrees(j); });
+    const auto end = std::partition_point(
+      begin, members.end(), [&](std::size_t j) { return this->Disparity[j] <= own || agrees(j); });
+    const bool isOwn = cell == this->CellOf(this->Pixels[feature]);
+    if (isOwn && this->AreNear(cell))
+    {
+      return static_cast<int>(end - begin);
+    }
+    int count = 0;
+    for (auto j = begin; j < end && j - begin < mostTests && count < most; ++j)
+    {
+      count +=
+        (this->Pixels[feature] - this->Pixels[*j]).squaredNorm() <= this->Radius * this->Radius;
+    }
+    return count;
+  }
+
+  // Whether all features of a cell lie within the radius of each other. Those outside the image share
+  // the cells on its border.
+  bool AreNear(std::size_t cell) const
+  {
+    const int row = static_cast<int>(cell / this->Columns);
+    const int column = static_cast<int>(cell % this->Columns);
+    return this->CellSize * std::sqrt(2.0) <= this->Radius * (1 + 1e-12) && row > 0 && column > 0 &&
+      row < this->Rows - 1 && column < this->Columns - 1;
+  }
+
   static int Clamp(double cell, int count)
   {
     return cell > 0 ? static_cast<int>(std::min(cell, count - 1.0)) : 0;
   }
   int Row(double y) const { return Clamp(y / this->CellSize, this->Rows); }
   int Column(double x) const { return Clamp(x / this->CellSize, this->Columns); }
+  std::size_t CellOf(const Eigen::Vector2d& pixel) const
+  {
+    return static_cast<std::size_t>(this->Row(pixel.y())) * this->Columns + this->Column(pixel.x());
+  }
 
+  const std::vector<Eigen::Vector2d>& Pixels;
+  const std::vector<double>& Disparity;
+  double Radius;
   double CellSize;
+  int Reach; // in cells
   int Columns;
   int Rows;
+  std::vector<std::size_t> Order;
   GroupedLists<std::size_t> Members; // features per cell
 };
 
@@ -122,23 +199,13 @@ std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& opt
     ? std::max(options.spacings * MeanSpacing(view, disparity), 1.0)
     : options.radius;
   const CellGrid grid(view.imagePoints, disparity, radius, view.camera);
-  std::vector<int> support(view.points.size(), 0);
+  std::vector<int> support(view.points.size(), -1);
   for (std::size_t i = 0; i < support.size(); ++i)
   {
-    if (disparity[i] <= 0)
+    if (disparity[i] > 0)
     {
-      support[i] = -1;
-      continue;
+      support[i] = grid.Count(i, options.disparityTolerance, mostSupport) - 1;
     }
-    grid.VisitNeighborhood(view.imagePoints[i],
-      [&](std::size_t j)
-      {
-        const bool near =
-          (view.imagePoints[i] - view.imagePoints[j]).squaredNorm() <= radius * radius;
-        const bool agrees = std::abs(disparity[i] - disparity[j]) <=
-          options.disparityTolerance * std::max(disparity[i], disparity[j]);
-        support[i] += j != i && near && agrees;
-      });
   }
   return support;
 }

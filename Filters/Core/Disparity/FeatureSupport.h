@@ -25,7 +25,8 @@ struct FeatureSupportOptions
 
 /// For each feature, how many others within the radius agree with its disparity. Features
 /// that are not finite or not in front of the camera give no support and count -1.
-/// O(n) for features that are spread over the image.
+/// Counts above a thousand may be too low: features that lie upon each other by the million take no
+/// longer than others. O(n log n).
 std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& options);
 
 }

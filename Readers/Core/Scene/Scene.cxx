@@ -3,6 +3,7 @@
 
 #include "Common/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Text/TextSource.h"
 #include "SparseModel/ReadSparseModel.h"
 
 #include <algorithm>
@@ -230,12 +231,7 @@ Json ParseFile(const std::string& file)
       ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "
       ".txt).");
   }
-  std::ifstream stream(file);
-  if (!stream)
-  {
-    throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
-  }
-  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
+  const std::string text = ReadWholeFile(file);
   try
   {
     return Json::parse(text);
@@ -244,6 +240,10 @@ Json ParseFile(const std::string& file)
   {
     throw Error("Cannot read " + file + ": it is not valid JSON, the fault is in " +
       PlaceOf(text, error.byte) + ".");
+  }
+  catch (const Json::exception&)
+  {
+    throw Error("Cannot read " + file + ": one of its numbers is too large.");
   }
 }
 

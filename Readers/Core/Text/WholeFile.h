@@ -7,20 +7,11 @@
 namespace freespace
 {
 
-/// Checks that a file is complete, i.e. not truncated. VTK's readers trust the header: of a truncated
-/// file they silently read a part, or crash.
-/// Each throws Error naming the file when it is missing, truncated or of another format.
+/// Checks that a file is complete, i.e. not truncated. Throws Error naming the file when it is missing or
+/// truncated.
 
-/// VTK's XML formats end with a closing tag.
-void CheckWholeVTKFile(const std::string& fileName);
-
-/// A PLY header gives the number of elements.
-void CheckWholePLY(const std::string& fileName);
-
-/// A binary STL header gives the number of triangles, a text file ends with "endsolid".
-void CheckWholeSTL(const std::string& fileName);
-
-/// A JPEG file ends with a marker; decoders invent the pixels that are missing. Other formats pass.
+/// A JPEG file is decoded: decoders go on where its data are damaged, and invent the pixels after. A few
+/// bytes of padding are no damage. Other formats pass.
 void CheckWholeJPEG(const std::string& fileName);
 
 }

@@ -110,6 +110,22 @@ TEST(FeatureSupport, DuplicatesSupportEachOther)
   EXPECT_EQ(CountSupport(view, FeatureSupportOptions()), (std::vector<int>{ 1, 1 }));
 }
 
+// Each with each would be 10^11 comparisons.
+TEST(FeatureSupport, CoincidentByTheHundredThousand)
+{
+  constexpr int count = 300000;
+  View view = MakeView();
+  for (int i = 0; i < count; ++i)
+  {
+    AddFeature(view, { 50, 40 }, i < count / 2 ? 1.0 : 3.0);
+  }
+  AddFeature(view, { -500, 40 }, 1.0);
+  const std::vector<int> support = CountSupport(view, FeatureSupportOptions());
+  EXPECT_EQ(support.front(), count / 2 - 1);
+  EXPECT_EQ(support[count - 1], count / 2 - 1);
+  EXPECT_EQ(support.back(), 0);
+}
+
 TEST(FeatureSupport, OptionsOutOfRange)
 {
   FeatureSupportOptions options;

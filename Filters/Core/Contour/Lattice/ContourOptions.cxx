@@ -47,7 +47,8 @@ bool SinglePrecisionSuffices(const AlignedBox3d& bounds, const ContourOptions& o
 {
   const double largest = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
   const double spacing = bounds.sizes().maxCoeff() / std::max(1, options.cells - 1);
-  return largest * std::numeric_limits<float>::epsilon() < spacing * options.clearance / 16;
+  return largest < std::numeric_limits<float>::max() / 16 &&
+    largest * std::numeric_limits<float>::epsilon() < spacing * options.clearance / 16;
 }
 
 }
