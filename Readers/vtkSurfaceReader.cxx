@@ -6,7 +6,7 @@
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
 #include "Surface/SurfaceFile.h"
-#include "XMLFileCheck.h"
+#include "XML/XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>

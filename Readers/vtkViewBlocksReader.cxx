@@ -3,7 +3,7 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
-#include "XMLFileCheck.h"
+#include "XML/XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>

@@ -62,8 +62,8 @@ std::optional<Scalar> ScalarOf(std::string_view name)
     { "double", Scalar::Double }, { "int8", Scalar::Int8 }, { "uint8", Scalar::UInt8 },
     { "int16", Scalar::Int16 }, { "uint16", Scalar::UInt16 }, { "int32", Scalar::Int32 },
     { "uint32", Scalar::UInt32 }, { "float32", Scalar::Float }, { "float64", Scalar::Double } };
-  const auto found =
-    std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
+  const auto found = std::find_if(
+    std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
   return found == std::end(names) ? std::nullopt : std::optional<Scalar>(found->second);
 }
 
@@ -127,11 +127,11 @@ private:
       if (keyword == "format")
       {
         const std::string_view format = words.Next();
-        this->Encoding = format == "ascii"     ? Format::Text
-          : format == "binary_little_endian"   ? Format::LittleEndian
-          : format == "binary_big_endian"      ? Format::BigEndian
-                                               : throw Error("Cannot read " + this->File +
-                                        ": PLY has no format '" + std::string(format) + "'.");
+        this->Encoding = format == "ascii"   ? Format::Text
+          : format == "binary_little_endian" ? Format::LittleEndian
+          : format == "binary_big_endian"    ? Format::BigEndian
+                                             : throw Error("Cannot read " + this->File +
+                                                 ": PLY has no format '" + std::string(format) + "'.");
       }
       else if (keyword == "comment")
       {
@@ -246,8 +246,8 @@ private:
         const Property& property = element.properties[p];
         if (property.count)
         {
-          const bool isPolygon = isFace &&
-            (property.name == "vertex_indices" || property.name == "vertex_index");
+          const bool isPolygon =
+            isFace && (property.name == "vertex_indices" || property.name == "vertex_index");
           this->ReadList(property, isPolygon);
           continue;
         }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "XMLFileCheck.h"
+#include "XML/XMLFileCheck.h"
 
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
 #include "Text/TextSource.h"
-#include "XMLArrayHeader.h"
+#include "XML/XMLArrayHeader.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
@@ -25,8 +25,8 @@ namespace freespace
 namespace
 {
 
-constexpr int deepest = 16;              // elements in elements; a .vtp has 5
-constexpr double mostCompressed = 1100;  // zlib's and LZ4's limits are below
+constexpr int deepest = 16;             // elements in elements; a .vtp has 5
+constexpr double mostCompressed = 1100; // zlib's and LZ4's limits are below
 constexpr std::string_view appendedTag = "<AppendedData";
 
 /// Walks over the elements of a file without keeping them.
@@ -342,7 +342,8 @@ std::vector<std::string> CheckXMLContent(const std::string& content, const std::
       CheckAppended(walk, all.substr(tagEnd + 1));
     }
   }
-  if (walk->Fault.empty() && all.find("</VTKFile>", all.size() - std::min<std::size_t>(all.size(), 64)) ==
+  if (walk->Fault.empty() &&
+    all.find("</VTKFile>", all.size() - std::min<std::size_t>(all.size(), 64)) ==
       std::string_view::npos)
   {
     walk->Fault = "it is truncated or not a file of VTK";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "XMLArrayHeader.h"
+#include "XML/XMLArrayHeader.h"
 
 #include <vtkBase64Utilities.h>
 
@@ -38,9 +38,8 @@ bool ArrayHeader::Fits(std::size_t length) const
   std::size_t decoded = 0;
   if (this->isBase64)
   {
-    decoded = vtkBase64Utilities::DecodeSafely(
-      reinterpret_cast<const unsigned char*>(begin.data()), begin.size() / 4 * 4, bytes.data(),
-      bytes.size());
+    decoded = vtkBase64Utilities::DecodeSafely(reinterpret_cast<const unsigned char*>(begin.data()),
+      begin.size() / 4 * 4, bytes.data(), bytes.size());
   }
   else
   {
