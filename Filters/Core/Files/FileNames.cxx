@@ -38,8 +38,9 @@ std::size_t CommonFolders(const std::vector<fs::path>& paths)
     const auto folder = [common](const fs::path& path)
     {
       auto at = path.begin();
-      std::advance(at, std::min<std::ptrdiff_t>(
-                         static_cast<std::ptrdiff_t>(common), std::distance(path.begin(), path.end()) - 1));
+      std::advance(at,
+        std::min<std::ptrdiff_t>(
+          static_cast<std::ptrdiff_t>(common), std::distance(path.begin(), path.end()) - 1));
       return *at;
     };
     isCommon = std::all_of(paths.begin(), paths.end(),
