@@ -218,8 +218,8 @@ void ViewScene(Session& session, const Settings& settings)
   if (film)
   {
     film->Finish(session);
-    session.Log("wrote " + settings.output);
   }
+  session.Log((folder ? "wrote the pictures in " : "wrote ") + settings.output);
 }
 
 }
