@@ -42,8 +42,8 @@ TEST(Wrapped, KeepsTheWordsAndTheColumns)
 
 TEST(Wrapped, DoesNotBreakALongWord)
 {
-  EXPECT_EQ(Wrapped("a " + std::string(90, 'x') + " b", 2, 2),
-    "a\n  " + std::string(90, 'x') + "\n  b");
+  EXPECT_EQ(
+    Wrapped("a " + std::string(90, 'x') + " b", 2, 2), "a\n  " + std::string(90, 'x') + "\n  b");
   EXPECT_EQ(Wrapped("", 4, 4), "");
 }
 
@@ -95,8 +95,7 @@ TEST(CommandText, TellsLimitsDefaultsAndExclusions)
   const CommandText text = TextOf(*program.app.get_subcommands({}).front());
   EXPECT_EQ(text.Usage(), "program make [OPTIONS] file");
   const std::string help = HelpText(text);
-  EXPECT_NE(
-    help.find("Number of cells (1 to 9; default 5; not with --other)"), std::string::npos);
+  EXPECT_NE(help.find("Number of cells (1 to 9; default 5; not with --other)"), std::string::npos);
   EXPECT_EQ(help.find("hidden"), std::string::npos);
 }
 

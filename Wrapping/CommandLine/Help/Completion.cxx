@@ -99,8 +99,8 @@ std::string BashCompletion(const std::vector<CommandText>& texts)
                        "  case $command in\n";
   for (std::size_t i = 1; i < texts.size(); ++i)
   {
-    script += "    " + CommandOf(texts[i]) + ") options='" + Quoted(Joined(NamesOf(texts[i]))) +
-      "' ;;\n";
+    script +=
+      "    " + CommandOf(texts[i]) + ") options='" + Quoted(Joined(NamesOf(texts[i]))) + "' ;;\n";
   }
   script += "    *) options='" + Quoted(Joined(NamesOf(texts[0])) + " " + CommandNames(texts[0])) +
     "' ;;\n  esac\n"
@@ -127,7 +127,8 @@ std::string ZshCompletion(const std::vector<CommandText>& texts)
             "  case $command in\n";
   for (std::size_t i = 1; i < texts.size(); ++i)
   {
-    script += "    " + CommandOf(texts[i]) + ")\n      _arguments" + ZshOptions(texts[i]) + "      ;;\n";
+    script +=
+      "    " + CommandOf(texts[i]) + ")\n      _arguments" + ZshOptions(texts[i]) + "      ;;\n";
   }
   script += "    *)\n      local -a commands=(\n";
   for (const auto& [name, description] : texts[0].commands)

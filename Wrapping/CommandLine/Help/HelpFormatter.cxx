@@ -47,6 +47,30 @@ std::string Section(const std::string& title, const std::vector<OptionText>& opt
   return section.empty() ? "" : "\n" + Wrapped(title, 0, 0) + ":\n" + section;
 }
 
+// Prose is wrapped; a long example goes on after a backslash, so that a shell takes it as it is.
+std::string Footer(const std::string& footer)
+{
+  std::istringstream lines(footer);
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+  {
+    const bool isExample = line.rfind("  ", 0) == 0;
+    if (line.size() <= 80)
+    {
+      text += line + "\n";
+      continue;
+    }
+    std::istringstream wrapped(isExample ? Wrapped(line, 6, 2, 78) : Wrapped(line, 0, 0));
+    std::string begin = isExample ? "  " : "";
+    for (std::string part; std::getline(wrapped, part); begin = isExample ? " \\\n" : "\n")
+    {
+      text += begin + part;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 }
 
 std::string HelpText(const CommandText& text)
@@ -67,7 +91,7 @@ std::string HelpText(const CommandText& text)
       help += Entry(name, description);
     }
   }
-  return text.footer.empty() ? help : help + "\n" + text.footer + "\n";
+  return text.footer.empty() ? help : help + "\n" + Footer(text.footer);
 }
 
 }

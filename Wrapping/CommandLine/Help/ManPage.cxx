@@ -116,7 +116,8 @@ std::string ManPage(const CommandText& text, const std::string& version)
   std::string upper = name;
   std::transform(upper.begin(), upper.end(), upper.begin(),
     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string page = ".TH \"" + upper + "\" 1 \"\" \"Freespace " + version + "\" \"User Commands\"\n";
+  std::string page =
+    ".TH \"" + upper + "\" 1 \"\" \"Freespace " + version + "\" \"User Commands\"\n";
   page += ".SH NAME\n" + Escaped(name) + " \\- " + Escaped(description) + "\n";
   page += ".SH SYNOPSIS\n.B " + Escaped(text.Usage()) + "\n";
   page += ".SH DESCRIPTION\n" + Escaped(text.description) +
@@ -132,8 +133,9 @@ std::string ManPage(const CommandText& text, const std::string& version)
     page += command == text.commands.front().first ? ".SH COMMANDS\n" : "";
     page += ".TP\n\\fB" + Escaped(command) + "\\fR\n" + Escaped(what) + "\n";
   }
-  page += ".SH EXIT STATUS\n0 after success, 1 after an error, 2 for a command line that is wrong, 130 "
-          "after an interrupt.\n";
+  page +=
+    ".SH EXIT STATUS\n0 after success, 1 after an error, 2 for a command line that is wrong, 130 "
+    "after an interrupt.\n";
   return page + Examples(text.footer) + SeeAlso(text);
 }
 
