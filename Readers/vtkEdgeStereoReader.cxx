@@ -3,13 +3,13 @@
 
 #include "ClusterOptions.h"
 #include "Common/Error.h"
-#include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
+#include "Agreement/CheckedScene.h"
+#include "Agreement/SceneFeatures.h"
 #include "Refinement/CameraRefinement.h"
 #include "Scene/EveryImage.h"
-#include "Scene/SceneClusters.h"
 #include "Stereo/EdgeStereo.h"
 #include "vtkClusterProposal.h"
 
@@ -96,52 +96,19 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
   return static_cast<long long>(time);
 }
 
-// The cameras of the scene's images, by its edges where that is wanted. `asGiven` has the clusters that
-// the file names.
-std::vector<freespace::CalibratedImage> CamerasOf(const freespace::Scene& asGiven,
+// The cameras of the scene's images, by its edges where that is wanted.
+std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene& checked,
   freespace::EdgeStore& edges, const freespace::MatcherOptions& matching, int mode,
   const freespace::Progress& progress)
 {
   constexpr std::size_t small = 200; // images
-  const freespace::SparseModel model = freespace::ReadSceneModel(asGiven);
+  const freespace::SparseModel& model = checked.model;
   const bool isWanted = mode == vtkEdgeStereoReader::REFINE_ALWAYS ||
     (mode == vtkEdgeStereoReader::REFINE_SMALL_SCENES && model.images.size() <= small);
-  return isWanted ? freespace::RefineCameras(asGiven, model, edges, matching,
+  return isWanted ? freespace::RefineCameras(checked.given, model, edges, matching,
                       freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress)
                       .images
                   : freespace::CalibratedImages(model);
-}
-
-// As many clusters at a time as there are threads: this bounds the memory. The first cluster in the
-// scene's order that fails decides the error; those after the needed ones may fail, and then give no view.
-std::vector<freespace::EdgeView> FindAllFeatures(const freespace::Scene& scene,
-  const std::vector<freespace::CalibratedImage>& images, freespace::EdgeStore& edges,
-  std::size_t needed, const freespace::MatcherOptions& matching,
-  const freespace::Progress& progress)
-{
-  std::vector<freespace::EdgeView> views(scene.clusters.size());
-  freespace::ParallelForWithProgress(views.size(), freespace::SMPParallelFor, progress,
-    [&](std::size_t i, const freespace::CancellationFlag& stop)
-    {
-      try
-      {
-        views[i] = freespace::FindFeatures(edges, images, scene.clusters[i], matching, stop);
-      }
-      catch (const freespace::Aborted&)
-      {
-        throw;
-      }
-      catch (const freespace::Error&)
-      {
-        if (i < needed)
-        {
-          throw;
-        }
-      }
-    });
-  const auto isEmpty = [](const freespace::EdgeView& view) { return view.points.empty(); };
-  views.erase(std::remove_if(views.begin(), views.end(), isEmpty), views.end());
-  return views;
 }
 
 }
@@ -172,6 +139,32 @@ vtkMTimeType vtkEdgeStereoReader::GetMTime()
   return std::max({ this->Superclass::GetMTime(), this->FilesChanged.GetMTime(), proposal });
 }
 
+freespace::EdgeStereoOptions vtkEdgeStereoReader::StereoOptions() const
+{
+  if (this->MinimumDepth < 0 || this->MaximumDepth < 0)
+  {
+    throw freespace::Error("The depths that edge stereo searches cannot be negative.");
+  }
+  freespace::EdgeStereoOptions options;
+  options.edges.smoothing = this->Smoothing;
+  options.edges.lowContrast = this->LowContrast;
+  options.edges.highContrast = this->HighContrast;
+  options.matching.tolerance = this->Tolerance;
+  options.matching.minimumAngle = this->MinimumAngle;
+  options.matching.colorTolerance = this->ColorTolerance;
+  options.matching.minimumRun = this->MinimumRun;
+  if (this->MinimumDepth > 0)
+  {
+    options.matching.maximumDisparity = 1 / this->MinimumDepth;
+  }
+  if (this->MaximumDepth > 0)
+  {
+    options.matching.minimumDisparity = 1 / this->MaximumDepth;
+  }
+  options.Check();
+  return options;
+}
+
 int vtkEdgeStereoReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -181,31 +174,17 @@ int vtkEdgeStereoReader::RequestData(
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   try
   {
-    if (this->MinimumDepth < 0 || this->MaximumDepth < 0)
-    {
-      throw freespace::Error("The depths that edge stereo searches cannot be negative.");
-    }
-    freespace::EdgeStereoOptions options;
-    options.edges.smoothing = this->Smoothing;
-    options.edges.lowContrast = this->LowContrast;
-    options.edges.highContrast = this->HighContrast;
-    options.matching.tolerance = this->Tolerance;
-    options.matching.minimumAngle = this->MinimumAngle;
-    options.matching.colorTolerance = this->ColorTolerance;
-    options.matching.minimumRun = this->MinimumRun;
-    if (this->MinimumDepth > 0)
-    {
-      options.matching.maximumDisparity = 1 / this->MinimumDepth;
-    }
-    if (this->MaximumDepth > 0)
-    {
-      options.matching.minimumDisparity = 1 / this->MaximumDepth;
-    }
-    options.Check();
-    freespace::Scene scene = freespace::ReadSceneWithClusters(this->FileName,
+    const freespace::EdgeStereoOptions options = this->StereoOptions();
+    const freespace::Scene given = freespace::ReadScene(this->FileName);
+    const SingleThreadedOpenCV guard;
+    freespace::EdgeStore edges(given, options.edges);
+    const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    freespace::CheckedScene checked = freespace::CheckScene(given, edges, options.matching,
       this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
                             : freespace::ClusterProposalOptions(),
-      &this->ClusterSummary);
+      this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
+    freespace::Scene& scene = checked.scene;
+    this->ClusterSummary = checked.choice;
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
@@ -215,14 +194,15 @@ int vtkEdgeStereoReader::RequestData(
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
     }
-    const SingleThreadedOpenCV guard;
-    freespace::EdgeStore edges(scene, options.edges);
-    const freespace::Progress progress = freespace::AlgorithmProgress(this);
     const std::vector<freespace::CalibratedImage> images =
-      CamerasOf(freespace::ReadScene(this->FileName), edges, options.matching, this->RefineCameras,
-        progress.Part(0, 0.5));
+      CamerasOf(checked, edges, options.matching, this->RefineCameras, progress.Part(0.2, 0.6));
     const std::vector<freespace::EdgeView> views =
-      FindAllFeatures(scene, images, edges, needed, options.matching, progress.Part(0.5, 1));
+      freespace::FindSceneFeatures(scene, images, edges, needed, options.matching,
+        freespace::SMPParallelFor, progress.Part(0.6, 1), checked.warnings);
+    for (const std::string& warning : checked.warnings)
+    {
+      vtkWarningMacro(<< warning);
+    }
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,
@@ -251,6 +231,7 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
   os << indent << "EveryImage: " << this->EveryImage << "\n";
   os << indent << "RefineCameras: " << this->RefineCameras << "\n";
+  os << indent << "CheckImages: " << this->CheckImages << "\n";
   os << indent << "ClusterProposal: " << this->ClusterProposal.Get() << "\n";
   os << indent << "ClusterSummary: " << this->ClusterSummary << "\n";
 }

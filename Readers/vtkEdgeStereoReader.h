@@ -41,9 +41,10 @@
  * Clusters run in parallel through vtkSMPTools, with the same result for any number of threads;
  * only the images of the clusters in work are in memory.
  *
- * A file that is missing, broken or does not fit, a triplet without overlap or a cluster with fewer
- * than three features is an error that names the file or cluster; the output is then empty. After
- * an abort it is empty, too. The reader runs again when the scene's file has changed on disk, but
+ * Images that contradict the others (see CheckImages) and clusters with hardly a feature for their edges
+ * are left out; a warning names them. A file that is missing, broken or does not fit, a triplet without
+ * overlap and a scene of which nothing is left is an error that names the file or cluster; the output is
+ * then empty. After an abort it is empty, too. The reader runs again when the scene's file has changed on disk, but
  * does not watch the images and the camera model.
  */
 #ifndef vtkEdgeStereoReader_h
@@ -58,6 +59,11 @@
 #include <vector> // for FilesRead
 
 class vtkClusterProposal;
+
+namespace freespace
+{
+struct EdgeStereoOptions;
+}
 
 class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
 {
@@ -179,6 +185,18 @@ public:
 
   ///@{
   /**
+   * Whether images that do not fit the others are left out, with a warning that names them: those whose
+   * edges contradict the edges of the images about them, because the picture is another or turned or its
+   * camera is wrong, and those whose observations in the camera model are not the projections of their
+   * points. Default true.
+   */
+  vtkSetMacro(CheckImages, bool);
+  vtkGetMacro(CheckImages, bool);
+  vtkBooleanMacro(CheckImages, bool);
+  ///@}
+
+  ///@{
+  /**
    * How clusters are chosen where the scene.json names none: by the parameters of this object. None, the
    * default, stands for one with the default parameters.
    */
@@ -216,8 +234,11 @@ protected:
   int MinimumRun = 4;
   int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
+  bool CheckImages = true;
 
 private:
+  freespace::EdgeStereoOptions StereoOptions() const;
+
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
   void operator=(const vtkEdgeStereoReader&) = delete;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSparseModelReader.h"
 
+#include "Agreement/ProjectionErrors.h"
+#include "Agreement/RemainingImages.h"
 #include "Common/Error.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
@@ -35,8 +37,17 @@ int vtkSparseModelReader::RequestData(
   {
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     options.Check();
-    const freespace::SparseModel model = freespace::ReadSparseModel(this->FileName);
+    freespace::SparseModel model = freespace::ReadSparseModel(this->FileName);
     progress(0.5);
+    if (this->CheckImages)
+    {
+      const auto wrong = freespace::FindMisprojectedImages(model);
+      if (!wrong.empty())
+      {
+        vtkWarningMacro(<< freespace::DescribeMisprojected(wrong, model.images.size()));
+        model = freespace::WithoutImages(std::move(model), freespace::NamesOf(wrong));
+      }
+    }
     const std::vector<freespace::SparseView> views =
       freespace::ViewsFromModel(model, options, freespace::SMPParallelFor);
     progress(0.7);
@@ -62,5 +73,6 @@ void vtkSparseModelReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumTrackLength: " << this->MinimumTrackLength << "\n";
   os << indent << "MaximumError: " << this->MaximumError << "\n";
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
+  os << indent << "CheckImages: " << this->CheckImages << "\n";
   os << indent << "MinimumFeatures: " << this->MinimumFeatures << "\n";
 }

@@ -103,6 +103,16 @@ public:
    */
   static bool CanReadFile(const std::string& path);
 
+  ///@{
+  /**
+   * Whether images are left out, with a warning that names them, whose observations are not the
+   * projections of their points. Default true.
+   */
+  vtkSetMacro(CheckImages, bool);
+  vtkGetMacro(CheckImages, bool);
+  vtkBooleanMacro(CheckImages, bool);
+  ///@}
+
 protected:
   vtkSparseModelReader();
   ~vtkSparseModelReader() override = default;
@@ -114,6 +124,7 @@ protected:
   double MaximumError = 4.0;
   double MinimumAngle = 5.0;
   int MinimumFeatures = 10;
+  bool CheckImages = true;
 
 private:
   vtkSparseModelReader(const vtkSparseModelReader&) = delete;

@@ -3,7 +3,6 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
-#include "Files/NameEncoding.h"
 #include "XML/XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
@@ -91,7 +90,7 @@ int vtkViewBlocksReader::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   try
   {
-    const auto blocks = freespace::WithNames(ReadWhole(this->FileName), freespace::NameFromUtf8);
+    const auto blocks = ReadWhole(this->FileName);
     CheckBlocks(blocks, this->FileName);
     output->ShallowCopy(blocks);
   }

@@ -5,7 +5,6 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/SurfaceViewpoint.h"
-#include "PlyWriter.h"
 #include "RunWriter.h"
 
 #include <vtkErrorCode.h>
@@ -13,13 +12,12 @@
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
 #include <vtkObjectFactory.h>
+#include <vtkPLYWriter.h>
 #include <vtkPolyData.h>
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
 vtkStandardNewMacro(vtkSurfaceWriter);
 
@@ -34,35 +32,21 @@ bool WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName
   return writer->Write() && writer->GetErrorCode() == vtkErrorCode::NoError;
 }
 
-// An STL has single precision, in which the vertices of a surface far from the origin fall together.
-void CheckSinglePrecision(vtkPolyData* surface, const std::string& fileName)
-{
-  constexpr double mostRounding = 1e-5; // of the diagonal
-  double bounds[6];
-  surface->GetBounds(bounds);
-  const double room = mostRounding * surface->GetLength();
-  for (const double bound : bounds)
-  {
-    if (!(std::abs(bound) * std::numeric_limits<float>::epsilon() / 2 <= room &&
-          std::abs(bound) <= std::numeric_limits<float>::max()))
-    {
-      throw freespace::Error("Cannot write " + fileName +
-        ": an STL has single precision, which is too little for a surface so far from the origin; "
-        "a .ply, .obj or .vtp keeps it.");
-    }
-  }
-}
-
-bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName,
-  const std::string& target)
+bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName)
 {
   if (ending == ".ply")
   {
-    return freespace::WritePLY(surface, "", freespace::ViewpointComment(surface), fileName);
+    vtkNew<vtkPLYWriter> writer;
+    writer->SetFileTypeToBinary();
+    const std::string viewpoint = freespace::ViewpointComment(surface);
+    if (!viewpoint.empty())
+    {
+      writer->AddComment(viewpoint);
+    }
+    return WriteWith(writer.Get(), surface, fileName);
   }
   if (ending == ".stl")
   {
-    CheckSinglePrecision(surface, target);
     vtkNew<vtkSTLWriter> writer;
     writer->SetFileTypeToBinary();
     return WriteWith(writer.Get(), surface, fileName);
@@ -110,7 +94,7 @@ void vtkSurfaceWriter::WriteData()
       const std::string ending = freespace::LowerCaseExtension(this->FileName);
       const std::filesystem::path written =
         std::filesystem::path(target.Path()).replace_extension(ending);
-      if (!WriteByEnding(surface, ending, written.string(), this->FileName))
+      if (!WriteByEnding(surface, ending, written.string()))
       {
         throw target.Failure();
       }

@@ -27,6 +27,7 @@ vtkSmartPointer<vtkSparseModelReader> ReaderWithoutLimits(const std::string& fol
 {
   auto reader = vtkSmartPointer<vtkSparseModelReader>::New();
   reader->SetFileName(folder);
+  reader->CheckImagesOff();
   reader->SetMinimumTrackLength(1);
   reader->SetMaximumError(1e300);
   reader->SetMinimumAngle(0);

@@ -5,6 +5,7 @@
 #include "Common/Camera.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct EdgeView : View
   std::vector<double> matchingCosts;               ///< 0 (perfect) to 1
   std::vector<int> chainIds;                       ///< index into chains
   std::vector<std::vector<int>> chains; ///< features that follow each other along an edge
+  std::size_t tokens = 0; ///< edge tokens of the reference image, of which these have a depth
 };
 
 }

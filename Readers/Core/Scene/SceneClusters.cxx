@@ -15,34 +15,45 @@ SparseModel WithExistingPhotographs(const Scene& scene, SparseModel model)
   {
     return model;
   }
+  const std::size_t all = model.images.size();
   model.images.erase(std::remove_if(model.images.begin(), model.images.end(),
                        [&](const SparseImage& image)
                        { return !std::filesystem::exists(scene.ImagePath(image.name)); }),
     model.images.end());
+  if (model.images.empty() && all > 0)
+  {
+    throw Error("None of the " + std::to_string(all) + " photographs of " + scene.ModelFolder() +
+      " is in the folder " + scene.ImagesFolder() + ".");
+  }
   return model;
+}
+
+Scene WithProposedClusters(
+  Scene scene, const SparseModel& all, const ClusterProposalOptions& options, std::string* choice)
+{
+  const SparseModel model = WithExistingPhotographs(scene, all);
+  const ClusterProposal proposal = ProposeClusters(model, options);
+  if (proposal.Empty())
+  {
+    throw Error("The scene " + scene.file +
+      " has no clusters, and none can be proposed: no photograph has two neighbours that see the "
+      "same.");
+  }
+  scene.clusters = ClustersFromProposal(model, proposal.clusters);
+  if (choice)
+  {
+    *choice = DescribeChoice(model, proposal);
+  }
+  return scene;
 }
 
 Scene ReadSceneWithClusters(
   const std::string& file, const ClusterProposalOptions& options, std::string* choice)
 {
   Scene scene = ReadScene(file);
-  if (scene.clusters.empty())
-  {
-    const SparseModel model = WithExistingPhotographs(scene, ReadSceneModel(scene));
-    const ClusterProposal proposal = ProposeClusters(model, options);
-    if (proposal.Empty())
-    {
-      throw Error("The scene " + file +
-        " has no clusters, and none can be proposed: no photograph has two neighbours that see the "
-        "same.");
-    }
-    scene.clusters = ClustersFromProposal(model, proposal.clusters);
-    if (choice)
-    {
-      *choice = DescribeChoice(model, proposal);
-    }
-  }
-  return scene;
+  return scene.clusters.empty()
+    ? WithProposedClusters(scene, ReadSceneModel(scene), options, choice)
+    : scene;
 }
 
 }

@@ -81,10 +81,11 @@ EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& imag
   view.name = cluster.name;
   view.imageFile = cluster.reference;
   view.camera = found.reference.camera;
+  view.tokens = found.reference.edges.tokens.size();
   FillView(found.reference.edges, found.matches, view);
   if (view.points.size() < 3)
   {
-    throw Error("Cluster '" + cluster.name +
+    throw TooFewFeatures("Cluster '" + cluster.name +
       "' has fewer than three features in its reference image " + cluster.reference + ".");
   }
   return view;

@@ -3,6 +3,7 @@
 #define freespace_EdgeStereo_h
 
 #include "Common/CancellationFlag.h"
+#include "Common/Error.h"
 #include "Common/View.h"
 #include "Edges/EdgeTokens.h"
 #include "Matching/TrinocularMatcher.h"
@@ -11,6 +12,13 @@
 
 namespace freespace
 {
+
+/// A cluster shows fewer than three features, which make no disparity map.
+class TooFewFeatures : public Error
+{
+public:
+  using Error::Error;
+};
 
 /// How a cluster's features are found.
 struct EdgeStereoOptions
@@ -31,7 +39,7 @@ struct EdgeStereoOptions
 ///
 /// `images` is what ReadSceneImages returned, or has refined cameras.
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
-/// than its camera's, an unknown image, a triplet without overlap, fewer than three features.
+/// than its camera's, an unknown image, a triplet without overlap; TooFewFeatures.
 /// Throws Aborted when the flag is set, at the next image.
 EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& images,
   const Cluster& cluster, const MatcherOptions& options,

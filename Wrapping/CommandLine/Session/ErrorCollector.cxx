@@ -3,7 +3,7 @@
 
 #include <vtkObjectFactory.h>
 
-#include <iostream>
+#include <utility>
 
 namespace freespace
 {
@@ -46,7 +46,7 @@ void ErrorCollector::DisplayErrorText(const char* text)
 void ErrorCollector::DisplayWarningText(const char* text)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  std::cerr << "freespace: warning: " << Sentence(text) << std::endl;
+  this->Warnings.push_back(Sentence(text));
 }
 
 void ErrorCollector::DisplayGenericWarningText(const char* text)
@@ -58,6 +58,12 @@ std::string ErrorCollector::FirstError()
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   return this->First.empty() ? this->Poor : this->First;
+}
+
+std::vector<std::string> ErrorCollector::TakeWarnings()
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  return std::exchange(this->Warnings, {});
 }
 
 void ErrorCollector::Clear()

@@ -6,12 +6,13 @@
 
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace freespace
 {
 
 /// VTK's messages, without its file names, line numbers and addresses. Errors are kept, because a
-/// command tells the first one and ends; warnings go to standard error.
+/// command tells the first one and ends; warnings until they are taken.
 class ErrorCollector : public vtkOutputWindow
 {
 public:
@@ -26,9 +27,13 @@ public:
   std::string FirstError();
   void Clear();
 
+  /// The warnings since this was called last.
+  std::vector<std::string> TakeWarnings();
+
 private:
   std::mutex Mutex;
   std::string First, Poor;
+  std::vector<std::string> Warnings;
 };
 
 }

@@ -17,6 +17,7 @@
 #include <vtkSMPTools.h>
 #include <vtkWriter.h>
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
@@ -79,7 +80,9 @@ std::vector<std::string> DoWatched(
 void Session::AddOptions(CLI::App& program)
 {
   program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
-  program.add_option("--threads", this->Threads, "Threads to use; 0: all cores")
+  program.add_flag(
+    "--strict", this->Strict, "Every warning is an error: nothing is written of what it was about");
+  program.add_option("--threads", this->Threads, "Threads to use; 0 means all cores")
     ->check(CLI::Range(0, 1024))
     ->capture_default_str();
 }
@@ -112,6 +115,8 @@ void Session::RunCommand()
   this->Quiet = this->Quiet || LaunchedRank() > 0;
   this->Begin();
   this->Action();
+  this->ThrowIfFailed(); // by what was done beside the stages
+  this->SumUp();
 }
 
 void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)
@@ -122,9 +127,10 @@ void Session::Watch(vtkObject* worker, const std::string& stage, const std::func
   line.Finish();
   for (const std::string& word : words)
   {
-    this->Log(
-      (word.rfind("freespace: ", 0) == 0 ? "" : "freespace: warning: " + stage + ": ") + word);
+    const bool isOurs = word.rfind("freespace: ", 0) == 0;
+    isOurs ? this->Log(word) : this->TellWarning(stage + ": " + word);
   }
+  this->ThrowIfStrict();
 }
 
 void Session::Run(vtkAlgorithm* algorithm, const std::string& stage, int piece, int pieces)
@@ -161,10 +167,52 @@ void Session::ThrowIfFailed()
   {
     throw Aborted();
   }
+  for (const std::string& warning : Collector()->TakeWarnings())
+  {
+    this->TellWarning(warning);
+  }
   const std::string error = Collector()->FirstError();
   if (!error.empty())
   {
     throw Error(error);
+  }
+  this->ThrowIfStrict();
+}
+
+void Session::Warn(const std::string& sentence)
+{
+  this->TellWarning(sentence);
+  this->ThrowIfStrict();
+}
+
+void Session::TellWarning(const std::string& sentence)
+{
+  if (std::find(this->Warnings.begin(), this->Warnings.end(), sentence) == this->Warnings.end())
+  {
+    this->Warnings.push_back(sentence);
+    this->Log("freespace: warning: " + sentence);
+  }
+}
+
+void Session::ThrowIfStrict() const
+{
+  if (this->Strict && !this->Warnings.empty())
+  {
+    throw Error("A warning is an error (--strict): " + this->Warnings.front());
+  }
+}
+
+void Session::SumUp() const
+{
+  if (this->Warnings.empty())
+  {
+    return;
+  }
+  const std::size_t count = this->Warnings.size();
+  this->Log("freespace: " + std::to_string(count) + (count == 1 ? " warning:" : " warnings:"));
+  for (const std::string& warning : this->Warnings)
+  {
+    this->Log("  " + warning);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkObject;
@@ -14,8 +15,10 @@ class vtkWriter;
 namespace freespace
 {
 
-/// What all commands share: the options --quiet and --threads, and running VTK algorithms so that
-/// their progress is shown, their errors become one sentence and an interrupt stops them cleanly.
+/// What all commands share: the options --quiet, --threads and --strict, and running VTK algorithms so that
+/// their progress is shown, their errors become one sentence and an interrupt stops them cleanly. Warnings
+/// are told where they arise and again at the end of the run; --strict makes an error of the first one,
+/// before the command writes what it was made of.
 class Session
 {
 public:
@@ -48,16 +51,25 @@ public:
   /// Runs a writer. Throws Error like Run.
   void Write(vtkWriter* writer);
 
-  /// Throws Error with the first VTK error since the last stage began, if there was one.
+  /// Tells the warnings and throws Error with the first VTK error since the last stage began, if there was
+  /// one.
   void ThrowIfFailed();
+
+  /// A warning, a sentence. Throws Error with it when warnings are errors.
+  void Warn(const std::string& sentence);
 
   /// A line of the log, not shown when quiet.
   void Log(const std::string& line) const;
 
 private:
   void Begin();
+  void TellWarning(const std::string& sentence);
+  void ThrowIfStrict() const;
+  void SumUp() const;
 
   bool Quiet = false;
+  bool Strict = false;
+  std::vector<std::string> Warnings; // of the run, each once
   int Threads = 0;
   Sharing ActionSharing = Sharing::FirstProcess;
   std::function<void()> Action;

@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Scene/Scene.h"
 #include "Session/Session.h"
 #include "Stages/StereoStage.h"
 
@@ -100,12 +101,14 @@ vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const 
   catch (const Error& error)
   {
     // The model and the folder have been read before: its photographs do not suit.
-    session.Log(std::string("densify: nothing is added. ") + error.what());
+    session.Warn(std::string("Nothing is added by --densify. ") + error.what());
     return sparse;
   }
-  session.Log("clusters: " + proposal->GetSummary());
-  proposal->WriteScene(scratch.Scene());
-  session.ThrowIfFailed();
+  // Without the clusters: the stereo proposes them when it knows which images are right.
+  Scene scene;
+  scene.images = std::filesystem::absolute(this->Images).string();
+  scene.model = std::filesystem::absolute(model).string();
+  WriteScene(scene, scratch.Scene());
   const auto edges = stereo.Run(session, scratch.Scene());
   vtkNew<vtkMergeViewsFilter> merge;
   merge->AddInputDataObject(sparse);

@@ -35,6 +35,7 @@ void SparseStage::AddOptions(CLI::App& command)
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
+  this->WrongImages.AddTo(command, "Structure-from-motion model");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
@@ -42,6 +43,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
 {
   vtkNew<vtkSparseModelReader> reader;
   reader->SetFileName(model);
+  reader->SetCheckImages(this->WrongImages.AreDropped());
   reader->SetMinimumTrackLength(this->MinimumTrackLength);
   reader->SetMaximumError(this->MaximumError);
   reader->SetMinimumAngle(this->MinimumAngle);

@@ -2,6 +2,8 @@
 #ifndef freespace_SparseStage_h
 #define freespace_SparseStage_h
 
+#include "Stages/WrongImagesOption.h"
+
 #include <CLI/CLI.hpp>
 
 #include <vtkSmartPointer.h>
@@ -27,6 +29,7 @@ private:
   double MaximumError = 4;
   double MinimumAngle = 5;
   int SupportNeighbors = 2;
+  WrongImagesOption WrongImages;
 };
 
 }

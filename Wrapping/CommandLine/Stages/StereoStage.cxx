@@ -45,6 +45,7 @@ void StereoStage::AddOptions(CLI::App& command)
     ->expected(0, 1)
     ->default_str("auto")
     ->group("Stereo");
+  this->WrongImages.AddTo(command, "Stereo");
   this->Choice.AddOptions(command, "Stereo");
 }
 
@@ -69,6 +70,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetRefineCameras(this->RefineCameras == "auto" ? Reader::REFINE_SMALL_SCENES
       : this->RefineCameras == "off"                     ? Reader::REFINE_NEVER
                                                          : Reader::REFINE_ALWAYS);
+  stereo->SetCheckImages(this->WrongImages.AreDropped());
   vtkNew<vtkClusterProposal> clusters;
   this->Choice.Apply(clusters);
   stereo->SetClusterProposal(clusters);

@@ -3,6 +3,7 @@
 #define freespace_StereoStage_h
 
 #include "Stages/ClusterChoice.h"
+#include "Stages/WrongImagesOption.h"
 
 #include <CLI/CLI.hpp>
 
@@ -33,6 +34,7 @@ private:
   double MaximumDepth = 0;
   std::string EveryImage = "auto";    // empty: on
   std::string RefineCameras = "auto"; // empty: on
+  WrongImagesOption WrongImages;
   ClusterChoice Choice;
 };
 

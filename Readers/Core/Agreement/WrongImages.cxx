@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Agreement/WrongImages.h"
+
+#include "Agreement/ImageAgreement.h"
+#include "Agreement/RemainingImages.h"
+#include "Common/Error.h"
+#include "Common/ParallelForWithProgress.h"
+#include "Refinement/RefinementClusters.h"
+#include "Stereo/ClusterMatching.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace freespace
+{
+
+namespace
+{
+
+ImageAgreement AgreementOf(const ClusterMatches& found)
+{
+  ImageAgreement agreement;
+  agreement.image = found.referenceImage;
+  agreement.tokens = static_cast<double>(found.matches.size());
+  for (const int other : found.otherImages)
+  {
+    agreement.others.emplace_back(other, 0);
+  }
+  for (const EdgeMatch& match : found.matches)
+  {
+    if (match.images < 2)
+    {
+      continue;
+    }
+    ++agreement.confirmed;
+    std::set<int> shown;
+    for (int k = match.support; k < match.support + match.images; ++k)
+    {
+      shown.insert(found.support[k].image);
+    }
+    for (const int other : shown)
+    {
+      ++agreement.others[other].second;
+    }
+  }
+  return agreement;
+}
+
+// Matches clusters around all images of a model, but those that were matched in the same company before.
+class AgreementMeter
+{
+public:
+  AgreementMeter(EdgeStore& edges, const std::vector<CalibratedImage>& images,
+    const MatcherOptions& matching, const WrongImageOptions& options)
+    : Edges(edges)
+    , Images(images)
+    , Matching(matching)
+    , Options(options)
+  {
+    this->Matching.tolerance = options.tolerance;
+  }
+
+  std::vector<ImageAgreement> Measure(
+    const std::vector<Cluster>& clusters, const ParallelFor& parallelFor, const Progress& progress)
+  {
+    std::vector<const Cluster*> unknown;
+    for (const Cluster& cluster : clusters)
+    {
+      if (this->Known.count(cluster.triplets) == 0)
+      {
+        unknown.push_back(&cluster);
+      }
+    }
+    std::vector<ImageAgreement> found(unknown.size());
+    ParallelForWithProgress(unknown.size(), parallelFor, progress,
+      [&](std::size_t i, const CancellationFlag& stop)
+      {
+        found[i] = AgreementOf(MatchCluster(this->Edges, this->Images, *unknown[i], this->Matching,
+          this->Options.tokensPerImage, stop));
+      });
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+    {
+      this->Known[unknown[i]->triplets] = found[i];
+    }
+    std::vector<ImageAgreement> all;
+    for (const Cluster& cluster : clusters)
+    {
+      all.push_back(this->Known.at(cluster.triplets));
+    }
+    return all;
+  }
+
+private:
+  EdgeStore& Edges;
+  const std::vector<CalibratedImage>& Images;
+  MatcherOptions Matching;
+  const WrongImageOptions& Options;
+  std::map<decltype(Cluster::triplets), ImageAgreement> Known;
+};
+
+}
+
+void WrongImageOptions::Check() const
+{
+  if (this->neighbors < 2 || this->rounds < 1 || this->tokensPerImage < 1 || !(this->tolerance > 0))
+  {
+    throw Error("Looking for wrong images takes two neighbours, one round, some tokens and a "
+                "positive tolerance.");
+  }
+}
+
+std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& model,
+  EdgeStore& edges, const MatcherOptions& matching, const WrongImageOptions& options,
+  const ParallelFor& parallelFor, const Progress& progress)
+{
+  options.Check();
+  const std::vector<CalibratedImage> images = CalibratedImages(model);
+  AgreementMeter meter(edges, images, matching, options);
+  const auto judge = [&](const std::set<std::string>& without, const Progress& part)
+  {
+    const auto clusters = ClustersForRefinement(
+      WithoutImages(scene, without), WithoutImages(model, without), options.neighbors);
+    return FindAgreement(images.size(), meter.Measure(clusters, parallelFor, part));
+  };
+  std::set<std::string> suspects;
+  for (int round = 0; round < options.rounds; ++round)
+  {
+    const double begin = 0.5 * round / options.rounds;
+    const Agreement found = judge(suspects, progress.Part(begin, begin + 0.5 / options.rounds));
+    if (found.contradicted.empty())
+    {
+      break;
+    }
+    for (const int image : found.contradicted)
+    {
+      suspects.insert(images[static_cast<std::size_t>(image)].file);
+    }
+  }
+  // A right one among wrong ones is suspected with them. It agrees with the others once these are gone.
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < images.size(); ++i)
+  {
+    std::set<std::string> without = suspects;
+    if (without.erase(images[i].file) > 0)
+    {
+      const Agreement found = judge(
+        without, progress.Part(0.5 + 0.5 * i / images.size(), 0.5 + 0.5 * (i + 1) / images.size()));
+      const std::vector<int>& confirmed = found.confirmed;
+      if (std::binary_search(confirmed.begin(), confirmed.end(), static_cast<int>(i)))
+      {
+        suspects.erase(images[i].file);
+      }
+      else
+      {
+        wrong.push_back(images[i].file);
+      }
+    }
+  }
+  progress(1);
+  return wrong;
+}
+
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_WrongImages_h
+#define freespace_WrongImages_h
+
+#include "Common/ParallelFor.h"
+#include "Common/Progress.h"
+#include "Matching/MatcherOptions.h"
+#include "Scene/Scene.h"
+#include "Stereo/EdgeStore.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// How images that do not fit their cameras are looked for.
+struct WrongImageOptions
+{
+  int neighbors = 4; ///< images that an image's edges are matched with; >= 2
+  double tolerance =
+    1.5; ///< of a third image's confirmation, pixels: as far as right cameras may be
+         ///< off; > 0
+  std::size_t tokensPerImage = 4000; ///< edge tokens that are matched, about; > 0
+  int rounds = 3; ///< at most: without the wrong ones the others have better neighbours; > 0
+
+  /// Throws Error when a field is out of its range.
+  void Check() const;
+};
+
+/// The images of a scene that contradict the others (FindAgreement), by name, in the model's
+/// order: photographs that are upside down or under another's name, and wrong cameras. The edges of each
+/// image are matched with those of its neighbours. The same result for any number of threads.
+///
+/// Throws Error as MatchCluster does, and Aborted when the progress says so.
+std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& model,
+  EdgeStore& edges, const MatcherOptions& matching, const WrongImageOptions& options,
+  const ParallelFor& parallelFor, const Progress& progress);
+
+}
+
+#endif
