@@ -140,6 +140,10 @@ std::string vtkBoardCalibration::GetText()
         Format(picture.error) + " pixels\n"
                          : "not used, " + picture.reason + "\n";
   }
+  if (this->Calibrated->calibration.hasFormerLayout)
+  {
+    text += "the board has the layout of OpenCV before 4.6\n";
+  }
   for (const freespace::SparseCamera& camera : this->Calibrated->model.cameras)
   {
     text += "camera of " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +

@@ -4,7 +4,7 @@
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "Scene/Scene.h"
-#include "SparseModel/ColmapModel.h"
+#include "SparseModel/ReadSparseModel.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
@@ -19,9 +19,9 @@ namespace
 
 std::vector<freespace::CalibratedImage> ReadImages(const std::string& fileName)
 {
-  if (std::filesystem::is_directory(fileName))
+  if (std::filesystem::is_directory(fileName) || freespace::IsSparseModel(fileName))
   {
-    return freespace::CalibratedImages(freespace::ReadColmapModel(fileName));
+    return freespace::CalibratedImages(freespace::ReadSparseModel(fileName));
   }
   return freespace::ReadSceneImages(freespace::ReadScene(fileName));
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkCameraReader
- * @brief read the cameras of a scene or of a COLMAP model
+ * @brief read the cameras of a scene or of a structure-from-motion model
  *
- * FileName is a scene.json, or the folder of a COLMAP model (cameras, images, points3D; .txt or .bin).
+ * FileName is a scene.json, the folder of a COLMAP model (cameras, images, points3D; .txt or .bin) or of
+ * a bundle.out, or such a file or a .nvm.
  * The output has one block for each image, named after it: a view without features, with the field
  * data arrays CameraIntrinsics, CameraFromWorld, ImageSize and ImageFile. Pixels follow COLMAP; the
  * lens's distortion is left out.

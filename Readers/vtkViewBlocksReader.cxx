@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Files/NameEncoding.h"
 #include "XML/XMLFileCheck.h"
 
 #include <vtkCallbackCommand.h>
@@ -90,7 +91,7 @@ int vtkViewBlocksReader::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   try
   {
-    const auto blocks = ReadWhole(this->FileName);
+    const auto blocks = freespace::WithNames(ReadWhole(this->FileName), freespace::NameFromUtf8);
     CheckBlocks(blocks, this->FileName);
     output->ShallowCopy(blocks);
   }

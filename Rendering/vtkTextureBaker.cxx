@@ -21,6 +21,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkTextureBaker);
 
@@ -78,6 +79,19 @@ void SetSurface(const TriangleMesh& mesh, const TextureAtlas& atlas, vtkPolyData
   surface->SetPolys(triangles);
   surface->GetPointData()->SetTCoords(coordinates);
   AddColors(atlas, surface);
+}
+
+// What the surface is moved to the origin by where it lies far from it, as in UTM coordinates: charts are
+// cut and photographs rendered in single precision. No triangle's colour depends on it.
+Eigen::Vector3d LocalOrigin(const TriangleMesh& mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    box.extend(point);
+  }
+  const bool isFar = box.center().norm() > 10 * box.diagonal().norm();
+  return isFar ? Eigen::Vector3d(box.center()) : Eigen::Vector3d::Zero();
 }
 
 }
@@ -141,18 +155,29 @@ int vtkTextureBaker::RequestData(
     {
       throw Error("There is no surface to texture.");
     }
+    const Eigen::Vector3d origin = LocalOrigin(mesh);
+    TriangleMesh local = mesh;
+    for (Eigen::Vector3d& point : local.points)
+    {
+      point -= origin;
+    }
+    std::vector<Photograph> photographs = PhotographsFromBlocks(this->Photographs);
+    for (Photograph& photograph : photographs)
+    {
+      photograph.camera.t += photograph.camera.R * origin;
+    }
     SurfaceColorOptions look;
     look.sharpness = this->Sharpness;
     look.level = this->Leveling;
     look.visibility.feather = this->Feather;
-    const SurfaceColor color(mesh, PhotographsFromBlocks(this->Photographs), look, SMPParallelFor);
+    const SurfaceColor color(local, std::move(photographs), look, SMPParallelFor);
     progress(0.2);
     TextureAtlasOptions options;
     options.texel = this->TexelSize;
     options.largest = this->LargestTexture;
     options.unseen = 255 * Eigen::Vector3d(this->UnseenColor);
     const TextureAtlas atlas =
-      BakeTexture(mesh, color, options, SMPParallelFor, progress.Part(0.2, 1.0));
+      BakeTexture(local, color, options, SMPParallelFor, progress.Part(0.2, 1.0));
     this->NumberOfCharts = atlas.charts;
     this->BakedTexelSize = atlas.texel;
     SetSurface(mesh, atlas, surface);

@@ -3,6 +3,7 @@
 
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmProgress.h"
+#include "Files/FileNames.h"
 #include "Images/FeatureOverlay.h"
 #include "RunWriter.h"
 
@@ -59,13 +60,19 @@ void vtkFeatureOverlayWriter::WriteData()
       const freespace::Progress progress = freespace::AlgorithmProgress(this);
       auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
       const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
+      std::vector<std::string> names;
+      for (const freespace::View& view : views)
+      {
+        names.push_back(view.name);
+      }
+      names = freespace::FileNamesOf(names);
       MakeFolder(this->OutputFolder);
       for (std::size_t i = 0; i < views.size(); ++i)
       {
         progress(static_cast<double>(i) / views.size());
         auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(static_cast<unsigned int>(i)));
         freespace::WriteFeatureOverlay(views[i], ChainsOf(block), this->ImagesFolder,
-          (std::filesystem::path(this->OutputFolder) / (views[i].name + ".png")).string());
+          (std::filesystem::path(this->OutputFolder) / (names[i] + ".png")).string());
       }
     }));
 }

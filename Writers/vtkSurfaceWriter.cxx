@@ -5,6 +5,7 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/SurfaceViewpoint.h"
+#include "PlyWriter.h"
 #include "RunWriter.h"
 
 #include <vtkErrorCode.h>
@@ -12,12 +13,13 @@
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
 #include <vtkObjectFactory.h>
-#include <vtkPLYWriter.h>
 #include <vtkPolyData.h>
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 vtkStandardNewMacro(vtkSurfaceWriter);
 
@@ -32,21 +34,35 @@ bool WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName
   return writer->Write() && writer->GetErrorCode() == vtkErrorCode::NoError;
 }
 
-bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName)
+// An STL has single precision, in which the vertices of a surface far from the origin fall together.
+void CheckSinglePrecision(vtkPolyData* surface, const std::string& fileName)
+{
+  constexpr double mostRounding = 1e-5; // of the diagonal
+  double bounds[6];
+  surface->GetBounds(bounds);
+  const double room = mostRounding * surface->GetLength();
+  for (const double bound : bounds)
+  {
+    if (!(std::abs(bound) * std::numeric_limits<float>::epsilon() / 2 <= room &&
+          std::abs(bound) <= std::numeric_limits<float>::max()))
+    {
+      throw freespace::Error("Cannot write " + fileName +
+        ": an STL has single precision, which is too little for a surface so far from the origin; "
+        "a .ply, .obj or .vtp keeps it.");
+    }
+  }
+}
+
+bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName,
+  const std::string& target)
 {
   if (ending == ".ply")
   {
-    vtkNew<vtkPLYWriter> writer;
-    writer->SetFileTypeToBinary();
-    const std::string viewpoint = freespace::ViewpointComment(surface);
-    if (!viewpoint.empty())
-    {
-      writer->AddComment(viewpoint);
-    }
-    return WriteWith(writer.Get(), surface, fileName);
+    return freespace::WritePLY(surface, "", freespace::ViewpointComment(surface), fileName);
   }
   if (ending == ".stl")
   {
+    CheckSinglePrecision(surface, target);
     vtkNew<vtkSTLWriter> writer;
     writer->SetFileTypeToBinary();
     return WriteWith(writer.Get(), surface, fileName);
@@ -94,7 +110,7 @@ void vtkSurfaceWriter::WriteData()
       const std::string ending = freespace::LowerCaseExtension(this->FileName);
       const std::filesystem::path written =
         std::filesystem::path(target.Path()).replace_extension(ending);
-      if (!WriteByEnding(surface, ending, written.string()))
+      if (!WriteByEnding(surface, ending, written.string(), this->FileName))
       {
         throw target.Failure();
       }

@@ -6,6 +6,7 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/PngBytes.h"
+#include "PlyWriter.h"
 #include "RunWriter.h"
 
 #include <vtkErrorCode.h>
@@ -14,7 +15,6 @@
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
 #include <vtkObjectFactory.h>
-#include <vtkPLYWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
@@ -34,16 +34,7 @@ void WriteColouredPLY(vtkPolyData* surface, const freespace::AtomicOutput& targe
   {
     throw freespace::Error("The surface's points have no named colours for a PLY.");
   }
-  // Without the texture's coordinates, which PLY viewers take for a texture that is not there.
-  vtkNew<vtkPolyData> plain;
-  plain->ShallowCopy(surface);
-  plain->GetPointData()->SetTCoords(nullptr);
-  vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(plain);
-  writer->SetArrayName(colors->GetName());
-  writer->SetFileTypeToBinary();
-  writer->SetFileName(target.Path().c_str());
-  if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
+  if (!freespace::WritePLY(surface, colors->GetName(), "", target.Path()))
   {
     throw target.Failure();
   }

@@ -3,6 +3,8 @@
 
 #include "Common/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Data/ViewBlocks.h"
+#include "Files/NameEncoding.h"
 #include "RunWriter.h"
 
 #include <vtkErrorCode.h>
@@ -33,8 +35,13 @@ void vtkViewBlocksWriter::WriteData()
           "Cannot write '" + this->FileName + "': the name of a file of views ends in .vtm.");
       }
       freespace::AtomicOutput target(this->FileName);
+      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      if (!blocks)
+      {
+        throw freespace::Error("Cannot write " + this->FileName + ": there are no views.");
+      }
       vtkNew<vtkXMLMultiBlockDataWriter> writer;
-      writer->SetInputDataObject(this->GetInput());
+      writer->SetInputDataObject(freespace::WithNames(blocks, freespace::Utf8FromName));
       writer->SetFileName(target.Path().c_str());
       // As fast as the disk: zlib and base64 take longer than all that made the maps.
       writer->SetCompressorTypeToLZ4();

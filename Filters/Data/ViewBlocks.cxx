@@ -399,4 +399,35 @@ void SetNamedBlock(
   blocks->GetMetaData(index)->Set(vtkCompositeDataSet::NAME(), name.c_str());
 }
 
+vtkSmartPointer<vtkMultiBlockDataSet> WithNames(
+  vtkMultiBlockDataSet* blocks, std::string (*changed)(const std::string&))
+{
+  auto result = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  result->ShallowCopy(blocks);
+  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+  {
+    if (vtkDataObject* block = blocks->GetBlock(i))
+    {
+      auto copy = vtkSmartPointer<vtkDataObject>::Take(block->NewInstance());
+      copy->ShallowCopy(block);
+      auto* file =
+        vtkStringArray::SafeDownCast(block->GetFieldData()->GetAbstractArray("ImageFile"));
+      if (file && file->GetNumberOfValues() > 0)
+      {
+        vtkNew<vtkStringArray> own;
+        own->SetName("ImageFile");
+        own->InsertNextValue(changed(file->GetValue(0)));
+        copy->GetFieldData()->AddArray(own); // in place of the shared one
+      }
+      result->SetBlock(i, copy);
+    }
+    if (blocks->HasMetaData(i))
+    {
+      result->GetMetaData(i)->Set(
+        vtkCompositeDataSet::NAME(), changed(BlockName(blocks, i)).c_str());
+    }
+  }
+  return result;
+}
+
 }

@@ -68,6 +68,11 @@ VTKFREESPACEFILTERS_EXPORT std::vector<DisparityMap> MapsFromBlocks(vtkMultiBloc
 VTKFREESPACEFILTERS_EXPORT void SetNamedBlock(
   vtkMultiBlockDataSet* blocks, unsigned int index, const std::string& name, vtkPolyData* block);
 
+/// A copy of the blocks whose names and ImageFile went through a function, such as Utf8FromName for XML;
+/// the other arrays are shared.
+VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkMultiBlockDataSet> WithNames(
+  vtkMultiBlockDataSet* blocks, std::string (*changed)(const std::string&));
+
 }
 
 #endif

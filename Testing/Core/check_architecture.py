@@ -6,10 +6,11 @@
 
 - No file of a Core folder includes a VTK header.
 - No include cycle between files, and none between folders.
-- No code file has more than 500 lines, no folder more than 20 files.
+- No code file has more than 500 lines, no folder more than 20 files, no function more than 80 lines.
 
 Prints each fault and exits with 1 if there is one.
 """
+import ast
 import os
 import re
 import sys
@@ -19,6 +20,7 @@ INCLUDE_DIRS = ['Filters/Core', 'Readers/Core', 'Rendering/Core', 'Filters', 'Re
                 'Writers', 'Wrapping/CommandLine']
 MOST_LINES = 500
 MOST_FILES = 20
+MOST_FUNCTION_LINES = 80
 CODE = ('.h', '.cxx', '.py', '.js')
 
 
@@ -110,12 +112,56 @@ def check_sizes(source, faults):
                 faults.append(f'{place} has {len(files)} files, more than {MOST_FILES}.')
 
 
+def cxx_functions(lines):
+    """First and last line of each function, by the layout that clang-format keeps: the braces of a function
+    stand alone, in the column of its first line."""
+    for begin, line in enumerate(lines):
+        brace = re.match(r'( *){$', line)
+        if not brace:
+            continue
+        head = begin
+        while head > 0 and re.search(r'\S', lines[head - 1]) and not re.search(r'[;{}]$|:$', lines[head - 1]):
+            head -= 1
+        while head < begin and re.match(r' *(//|/?\*)', lines[head]):
+            head += 1
+        words = ' '.join(lines[head:begin]).strip()
+        if '(' not in words or re.match(r'(namespace|class|struct|union|enum|extern|template.*(class|struct) \w+$)\b', words):
+            continue
+        indent = brace.group(1)
+        end = next((i for i in range(begin, len(lines)) if lines[i].startswith(indent + '}')), len(lines) - 1)
+        yield head + 1, end + 1
+
+
+def python_functions(text):
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            yield node.lineno, node.end_lineno
+
+
+def check_functions(source, faults):
+    count = 0
+    for file in code_files(source, ROOTS + ['Testing', 'Examples']):
+        if file.endswith('.js'):
+            continue
+        with open(os.path.join(source, file), encoding='utf-8') as opened:
+            text = opened.read()
+        functions = python_functions(text) if file.endswith('.py') else cxx_functions(text.split('\n'))
+        for begin, end in functions:
+            count += 1
+            if end - begin + 1 > MOST_FUNCTION_LINES:
+                faults.append(f'{file}:{begin} is a function of {end - begin + 1} lines, '
+                              f'more than {MOST_FUNCTION_LINES}.')
+    if count == 0:
+        faults.append(f'No functions under {source}.')
+
+
 def main():
     source = sys.argv[1]
     faults = []
     check_core(source, faults)
     check_cycles(source, faults)
     check_sizes(source, faults)
+    check_functions(source, faults)
     print('\n'.join(faults) if faults else 'The architecture is kept.')
     sys.exit(1 if faults else 0)
 

@@ -9,6 +9,8 @@
 #include "vtkViewBlocksWriter.h"
 
 #include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
@@ -189,4 +191,48 @@ TEST(ViewBlocks, LinesAreEdges)
   const vtkIdType wrong[2] = { 0, 3 };
   chain->InsertNextCell(2, wrong);
   EXPECT_THROW(ViewFromBlock(block, "view"), Error);
+}
+
+// Bytes that are no UTF-8, and control characters, which XML does not know.
+TEST(ViewBlocks, NamesThatAreNotUtf8ComeBack)
+{
+  const TemporaryFolder folder;
+  const std::string name = "caf\xe9\n0";
+  View view = MakeMap(0);
+  view.name = name;
+  view.imageFile = name + ".jpg";
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  SetNamedBlock(blocks, 0, name, BlockFromView(view));
+  vtkNew<vtkViewBlocksWriter> writer;
+  writer->SetInputDataObject(blocks);
+  writer->SetFileName(folder.Path("views.vtm"));
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_EQ(BlockName(blocks, 0), name) << "the input is left alone";
+  vtkNew<vtkViewBlocksReader> reader;
+  reader->SetFileName(folder.Path("views.vtm"));
+  EXPECT_EQ(ErrorOfUpdate(reader), "");
+  const std::vector<View> read = ViewsFromBlocks(reader->GetOutput());
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].name, name);
+  EXPECT_EQ(read[0].imageFile, name + ".jpg");
+}
+
+// As many values as there should be, but not a tuple for each point.
+TEST(ViewBlocks, ArraysOfAnotherShapeAreErrors)
+{
+  const View view = MakeMap(0);
+  const auto block = BlockFromView(view);
+  const vtkIdType count = block->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> wide;
+  wide->SetName("ImagePoint");
+  wide->SetNumberOfComponents(static_cast<int>(2 * count));
+  wide->SetNumberOfTuples(1);
+  wide->Fill(1);
+  block->GetPointData()->AddArray(wide);
+  EXPECT_THROW(ViewFromBlock(block, "view"), Error);
+  const auto map = BlockFromView(view);
+  vtkNew<vtkIntArray> source;
+  source->SetName("SourceView");
+  map->GetPointData()->AddArray(source);
+  EXPECT_THROW(MapFromBlock(map, "view", 0), Error) << "too short";
 }

@@ -10,6 +10,15 @@ endfunction()
 
 file(REMOVE_RECURSE "${PREFIX}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}/usr")
+# The ABI's version is in the name that consumers load the libraries by.
+file(GLOB libraries "${PREFIX}/usr/lib/*/libvtkFreespace*.so" "${PREFIX}/usr/lib/libvtkFreespace*.so")
+foreach(library IN LISTS libraries)
+  execute_process(COMMAND readelf -d "${library}" OUTPUT_VARIABLE dynamic)
+  get_filename_component(name "${library}" NAME)
+  if(NOT dynamic MATCHES "SONAME[^\n]*\\[${name}\\.${ABI}\\]")
+    message(FATAL_ERROR "${library} has not the name ${name}.${ABI}:\n${dynamic}")
+  endif()
+endforeach()
 run("${CMAKE_COMMAND}" -S "${SOURCE}/consumer" -B "${PREFIX}/consumer" -G Ninja
   "-DCMAKE_PREFIX_PATH=${PREFIX}/usr" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${PREFIX}/consumer")

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
 COMMANDS = ('reconstruct', 'sparse', 'calibrate', 'clusters', 'stereo', 'triangulate', 'contour', 'query', 'render',
-            'texture', 'occupancy', 'view', 'report')
+            'texture', 'occupancy', 'view', 'report', 'refine')
 
 
 def run(*arguments, cwd=None):
@@ -54,6 +54,55 @@ class TestUsage(unittest.TestCase):
                 result = run(command, '--help')
                 self.assertEqual(result.returncode, 0)
                 self.assertIn(f'freespace {command} ', result.stdout.split('Example')[-1])
+
+    def test_help_has_lines_of_80_columns_and_the_shared_options(self):
+        for command in ([], *([command] for command in COMMANDS)):
+            with self.subTest(command=command):
+                text = run(*command, '--help').stdout
+                self.assertLessEqual(max(map(len, text.splitlines())), 80)
+                for option in ('--threads', '--quiet', '--config', '--save-config'):
+                    self.assertIn(option, text)
+
+    def test_unknown_command_is_an_error_with_help_too(self):
+        for arguments in (('no-such-command', '--help'), ('--help', 'no-such-command')):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(result.stdout, '')
+            self.assertIn("no command 'no-such-command'", result.stderr)
+
+    def test_did_you_mean(self):
+        for arguments, meant in ((('contuor', 'maps.vtm'), "'contour'"),
+                                 (('contour', 'maps.vtm', '-o', 'x.ply', '--cels=3'), "'--cells'"),
+                                 (('stereo', 'scene.json', '--thread', '2'), "'--threads'"),
+                                 (('reconstruct', 'scene.json', '--pictrue', 'x.png'), "'--picture'")):
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(f'did you mean {meant}?', result.stderr)
+
+    def test_man_pages_and_completion(self):
+        folder = Path(tempfile.mkdtemp(prefix='freespace-test-'))
+        self.addCleanup(shutil.rmtree, folder)
+        self.assertEqual(run('--write-documentation', folder).returncode, 0)
+        for command in COMMANDS:
+            page = folder / 'man' / 'man1' / f'freespace-{command}.1'
+            self.assertIn(f'freespace\\-{command} \\- ', page.read_text())
+            self.assertIn('\\-\\-threads', page.read_text())
+            if shutil.which('man'):
+                shown = subprocess.run(['man', '--warnings', '-l', page], capture_output=True, text=True)
+                self.assertEqual((shown.returncode, shown.stderr), (0, ''))
+        script = folder / 'bash-completion' / 'completions' / 'freespace'
+        for typed, offered in (('freespace cont', ['contour']), ('freespace -q contour maps.vtm --cel', ['--cells']),
+                               ('freespace stereo --thr', ['--threads'])):
+            words = typed.split()
+            asked = subprocess.run(
+                ['bash', '-c', f'. {script}; COMP_WORDS=({typed}); COMP_CWORD={len(words) - 1}; _freespace; '
+                               'echo "${COMPREPLY[@]}"'], capture_output=True, text=True)
+            self.assertEqual(asked.stdout.split(), offered, asked.stderr)
+        if shutil.which('zsh'):
+            zsh = folder / 'zsh' / 'vendor-completions' / '_freespace'
+            checked = subprocess.run(['zsh', '-n', zsh], capture_output=True, text=True)
+            self.assertEqual((checked.returncode, checked.stderr), (0, ''))
 
     def test_no_command_and_unknown_option(self):
         for arguments in ((), ('stereo', '--no-such-option'), ('no-such-command',)):

@@ -17,10 +17,15 @@ namespace freespace
 class BoardRendering
 {
 public:
-  explicit BoardRendering(const Board& board)
+  /// `hasFormerLayout`: that of OpenCV before 4.6, of an even number of rows and columns.
+  explicit BoardRendering(const Board& board, bool hasFormerLayout = false)
     : Layout(board)
     , Texture(Draw(board))
   {
+    for (int row = 0; row < board.rows && hasFormerLayout; ++row)
+    {
+      this->MoveSquares(row, row % 2 == 0 ? 1 : board.columns - 1);
+    }
   }
 
   cv::Mat Render(const CalibratedImage& image) const
@@ -56,6 +61,16 @@ public:
 
 private:
   static constexpr int pixelsPerSquare = 64;
+
+  // Moves the squares of a row to the left, those at its beginning to its end.
+  void MoveSquares(int row, int by)
+  {
+    const int top = row * pixelsPerSquare, split = by * pixelsPerSquare;
+    cv::Mat squares = this->Texture.rowRange(top, top + pixelsPerSquare);
+    cv::Mat moved;
+    cv::hconcat(squares.colRange(split, squares.cols), squares.colRange(0, split), moved);
+    moved.copyTo(squares);
+  }
 
   static cv::Size Squares(const Board& board)
   {

@@ -85,6 +85,41 @@ TEST(vtkSurfaceWriter, WhatIsWrittenIsReadAgain)
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.Path()), fs::directory_iterator()), 6);
 }
 
+// A model in UTM coordinates: single precision has steps of half a metre there.
+TEST(vtkSurfaceWriter, CoordinatesFarFromTheOriginAreKept)
+{
+  const TemporaryFolder folder;
+  const auto surface = MakeTetrahedron();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    const double* point = surface->GetPoint(i);
+    points->InsertNextPoint(
+      500000.1 + point[0] / 100, 5400000.3 + point[1] / 100, 300.7 + point[2]);
+  }
+  surface->SetPoints(points);
+  for (const char* name : { "a.ply", "a.obj", "a.vtp" })
+  {
+    vtkNew<vtkSurfaceWriter> writer;
+    writer->SetInputDataObject(surface);
+    writer->SetFileName(folder.Path(name));
+    ASSERT_EQ(writer->Write(), 1);
+    vtkNew<vtkSurfaceReader> reader;
+    reader->SetFileName(folder.Path(name));
+    EXPECT_EQ(ErrorOfUpdate(reader), "");
+    EXPECT_EQ(Triangles(reader->GetOutput()), Triangles(surface)) << name;
+  }
+  vtkNew<vtkSurfaceWriter> writer;
+  vtkNew<ErrorObserver> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetInputDataObject(surface);
+  writer->SetFileName(folder.Path("a.stl"));
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_TRUE(errors->Has("single precision")) << errors->All;
+  EXPECT_FALSE(fs::exists(folder.Path("a.stl")));
+}
+
 TEST(vtkSurfaceWriter, PLYAndVTPKeepTheViewpoint)
 {
   const TemporaryFolder folder;

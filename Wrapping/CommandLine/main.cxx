@@ -3,11 +3,15 @@
 #include "Commands/Commands.h"
 #include "Common/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Help/Documentation.h"
+#include "Help/HelpFormatter.h"
+#include "Help/UnknownWord.h"
 #include "Session/Ranks.h"
 #include "Session/Session.h"
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -46,9 +50,11 @@ void SaveConfig(const CLI::App& program, const std::string& fileName)
 void DescribeProgram(CLI::App& program)
 {
   program.name("freespace");
+  program.formatter(std::make_shared<freespace::HelpFormatter>());
   program.set_version_flag("--version", "freespace " FREESPACE_VERSION);
   program.set_config("--config", "", "Read options from a file that --save-config wrote")
-    ->check(CLI::ExistingFile);
+    ->check(CLI::ExistingFile)
+    ->type_name("FILE.ini");
   program.require_subcommand(1);
   program.fallthrough();
   program.allow_config_extras(CLI::config_extras_mode::error);
@@ -126,14 +132,18 @@ std::string Fault(
   {
     return config + ": " + what;
   }
+  // CLI11 misses a needed option before it finds one that there is not.
+  const bool mayBeUnknown = dynamic_cast<const CLI::ExtrasError*>(&error) ||
+    dynamic_cast<const CLI::RequiredError*>(&error);
+  const std::string command = freespace::UnknownCommand(program);
+  const std::string option = mayBeUnknown ? freespace::UnknownOption(program) : "";
+  if (!command.empty() || !option.empty())
+  {
+    return command.empty() ? option : command;
+  }
   if (!program.get_subcommands().empty())
   {
     return what;
-  }
-  const std::vector<std::string> unknown = program.remaining();
-  if (!unknown.empty() && unknown[0][0] != '-')
-  {
-    return "There is no command '" + unknown[0] + "'; 'freespace --help' lists them.";
   }
   if (dynamic_cast<const CLI::RequiredError*>(&error) && !config.empty())
   {
@@ -154,7 +164,8 @@ int Run(int argc, char* argv[])
   DescribeProgram(program);
   session.AddOptions(program);
   program.add_option("--save-config", configToSave, "Write all options of this run to a file")
-    ->configurable(false);
+    ->configurable(false)
+    ->type_name("FILE.ini");
   freespace::AddReconstructCommand(program, session);
   freespace::AddSparseCommand(program, session);
   freespace::AddCalibrateCommand(program, session);
@@ -170,13 +181,24 @@ int Run(int argc, char* argv[])
   freespace::AddReportCommand(program, session);
   freespace::AddViewCommand(program, session);
   LetConfigRunCommands(program, argc, argv);
+  if (argc == 3 && argv[1] == std::string("--write-documentation")) // for the build
+  {
+    freespace::WriteDocumentation(program, FREESPACE_VERSION, argv[2]);
+    return 0;
+  }
   try
   {
     program.parse(argc, argv);
   }
   catch (const CLI::Success& wish) // --help, --version
   {
-    return program.exit(wish);
+    const std::string unknown = freespace::UnknownCommand(program);
+    if (unknown.empty())
+    {
+      return program.exit(wish);
+    }
+    std::cerr << "freespace: " << unknown << "\n";
+    return misused;
   }
   catch (const CLI::ParseError& error)
   {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <map>
 
 namespace freespace
@@ -28,12 +30,29 @@ void BoardCalibrationOptions::Check() const
   }
 }
 
-BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
-  const BoardCalibrationOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+namespace
 {
-  options.Check();
-  BoardCalibration calibration;
-  calibration.pictures.resize(files.size());
+
+using Pictures = std::vector<BoardPicture*>;
+
+// Squares of an even sum of sides look the same when the board is turned by half.
+void CheckTellsItsSides(const Board& board)
+{
+  if (board.kind == Board::Kind::Chessboard && (board.columns + board.rows) % 2 == 0)
+  {
+    throw Error("Cannot calibrate: a chessboard of " + std::to_string(board.columns) + " x " +
+      std::to_string(board.rows) +
+      " inner corners looks the same when it is turned by half, so that the cameras' poses are not "
+      "known: one of the numbers must be even and the other odd.");
+  }
+}
+
+// Detects the board in all pictures. Of a ChArUco board's two layouts the one counts that more markers of
+// all pictures fit.
+void Detect(const std::vector<std::string>& files, const Board& board,
+  const ParallelFor& parallelFor, BoardCalibration& calibration)
+{
+  std::vector<BoardDetection> detections(files.size());
   ForEach(parallelFor, files.size(),
     [&](std::size_t i)
     {
@@ -42,43 +61,151 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
       picture.file = files[i];
       picture.image.camera.width = gray.cols;
       picture.image.camera.height = gray.rows;
-      picture.corners = DetectBoard(gray, options.board);
-      picture.used = !picture.corners.ids.empty();
-      picture.reason = picture.used ? "" : "the board was not found";
+      detections[i] = DetectLayouts(gray, board);
     });
+  int markers = 0, formerMarkers = 0;
+  for (const BoardDetection& detection : detections)
+  {
+    markers += detection.markers;
+    formerMarkers += detection.formerMarkers;
+  }
+  calibration.hasFormerLayout = formerMarkers > markers;
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    BoardPicture& picture = calibration.pictures[i];
+    picture.corners =
+      std::move(calibration.hasFormerLayout ? detections[i].formerCorners : detections[i].corners);
+    picture.used = !picture.corners.ids.empty();
+    picture.reason = picture.used ? "" : "the board was not found";
+  }
+}
+
+// The pictures of one size, by the folders that they are in.
+std::vector<Pictures> ByFolder(const Pictures& pictures)
+{
+  std::map<std::string, Pictures> folders;
+  for (BoardPicture* picture : pictures)
+  {
+    folders[std::filesystem::path(picture->file).parent_path().string()].push_back(picture);
+  }
+  std::vector<Pictures> groups;
+  for (auto& folder : folders)
+  {
+    groups.push_back(std::move(folder.second));
+  }
+  return groups;
+}
+
+// Whether pictures of several folders are better explained by a camera for each folder than by one, by the
+// Bayesian information criterion over the corners that fit the folders' own cameras.
+bool HaveOwnCameras(const std::vector<Pictures>& folders, const BoardCalibrationOptions& options,
+  const ParallelFor& parallelFor)
+{
+  std::vector<BoardPicture> copies;
+  for (const Pictures& folder : folders)
+  {
+    for (const BoardPicture* picture : folder)
+    {
+      copies.push_back(*picture);
+    }
+  }
+  CameraFit apart;
+  Pictures all;
+  std::size_t next = 0;
+  for (const Pictures& folder : folders)
+  {
+    Pictures own;
+    for (std::size_t i = 0; i < folder.size(); ++i)
+    {
+      own.push_back(&copies[next++]);
+    }
+    CameraCalibration calibration(own, options, parallelFor);
+    calibration.Run();
+    const CameraFit fit = calibration.Summary();
+    apart.squares += fit.squares;
+    apart.corners += fit.corners;
+    apart.parameters += fit.parameters;
+    std::copy_if(own.begin(), own.end(), std::back_inserter(all),
+      [](const BoardPicture* picture) { return picture->used; });
+  }
+  const CameraFit together = CameraCalibration(all, options, parallelFor).Summary();
+  return apart.Criterion() < together.Criterion();
+}
+
+// All pictures of one size are of one camera, unless those of different folders are clearly of several.
+std::vector<Pictures> CamerasOf(
+  const Pictures& pictures, const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
+{
+  std::vector<Pictures> folders = ByFolder(pictures);
+  try
+  {
+    if (folders.size() > 1 && HaveOwnCameras(folders, options, parallelFor))
+    {
+      return folders;
+    }
+  }
+  catch (const Error&)
+  {
+    // A folder does not determine a camera by itself.
+  }
+  return { pictures };
+}
+
+}
+
+BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
+  const BoardCalibrationOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+{
+  options.Check();
+  CheckTellsItsSides(options.board);
+  BoardCalibration calibration;
+  calibration.pictures.resize(files.size());
+  Detect(files, options.board, parallelFor, calibration);
   progress(0.5);
-  std::map<std::pair<int, int>, std::vector<BoardPicture*>> cameras;
+  std::map<std::pair<int, int>, Pictures> sizes;
   for (BoardPicture& picture : calibration.pictures)
   {
     if (picture.used)
     {
-      cameras[{ picture.image.camera.width, picture.image.camera.height }].push_back(&picture);
+      sizes[{ picture.image.camera.width, picture.image.camera.height }].push_back(&picture);
     }
   }
-  if (cameras.empty())
+  if (sizes.empty())
   {
     throw Error("Cannot calibrate: the board was found in none of " + std::to_string(files.size()) +
       " pictures.");
   }
+  std::vector<Pictures> cameras;
+  for (const auto& size : sizes)
+  {
+    for (Pictures& camera : CamerasOf(size.second, options, parallelFor))
+    {
+      cameras.push_back(std::move(camera));
+    }
+  }
   // If a camera cannot be calibrated, its images are skipped; it is an error if none can.
   std::string fault;
   std::size_t calibrated = 0;
-  for (const auto& camera : cameras)
+  for (std::size_t i = 0; i < cameras.size(); ++i)
   {
     try
     {
-      CameraCalibration(camera.second, options, parallelFor).Run();
+      CameraCalibration(cameras[i], options, parallelFor).Run();
       ++calibrated;
     }
     catch (const Error& error)
     {
       fault = error.what();
-      for (BoardPicture* picture : camera.second)
+      for (BoardPicture* picture : cameras[i])
       {
         picture->used = false;
         picture->reason =
           picture->reason.empty() ? "its camera could not be calibrated" : picture->reason;
       }
+    }
+    for (BoardPicture* picture : cameras[i])
+    {
+      picture->cameraIndex = static_cast<int>(i);
     }
   }
   if (calibrated == 0)

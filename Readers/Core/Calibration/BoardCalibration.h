@@ -36,12 +36,15 @@ struct BoardPicture
   BoardCorners corners;  ///< the inliers
   double error = 0;      ///< of their reprojection, root mean square in pixels
   CalibratedImage image; ///< its camera in the frame of BoardPoints
+  int cameraIndex = 0;   ///< images of one camera have the same
 };
 
-/// The result of a calibration. All images of one size are assumed to be of one camera.
+/// The result of a calibration. All images of one size are of one camera, unless those of several folders
+/// are clearly of a camera for each.
 struct BoardCalibration
 {
   std::vector<BoardPicture> pictures; ///< in the order of the files
+  bool hasFormerLayout = false;       ///< of a ChArUco board, see BoardDetection
   double error = 0;                   ///< of all corners, root mean square in pixels
 
   /// The used images as a sparse model whose points are the corners of the board. Images are named by
@@ -52,7 +55,8 @@ struct BoardCalibration
 /// Detects the board in every image and calibrates: the intrinsics with as many distortion coefficients
 /// as the corners justify (by the Bayesian information criterion) and the pose of every image. Outliers
 /// among the corners are rejected, and so are images without the board. Throws Error naming an image that
-/// cannot be read, and when fewer than three images of a size show the board.
+/// cannot be read, when fewer than three images of a size show the board, and for a chessboard that
+/// looks the same when it is turned by half.
 BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
   const BoardCalibrationOptions& options, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = Progress());

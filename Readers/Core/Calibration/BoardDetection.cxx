@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Calibration/BoardDetection.h"
 
+#include "Calibration/CharucoDetection.h"
 #include "Common/Error.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -19,100 +19,6 @@ namespace
 {
 
 constexpr double largestShift = 1.5; // of a corner against its expected place, pixels
-
-struct DictionaryName
-{
-  const char* name;
-  int number;
-};
-
-constexpr DictionaryName dictionaries[] = { { "DICT_4X4_50", cv::aruco::DICT_4X4_50 },
-  { "DICT_4X4_100", cv::aruco::DICT_4X4_100 }, { "DICT_4X4_250", cv::aruco::DICT_4X4_250 },
-  { "DICT_4X4_1000", cv::aruco::DICT_4X4_1000 }, { "DICT_5X5_50", cv::aruco::DICT_5X5_50 },
-  { "DICT_5X5_100", cv::aruco::DICT_5X5_100 }, { "DICT_5X5_250", cv::aruco::DICT_5X5_250 },
-  { "DICT_5X5_1000", cv::aruco::DICT_5X5_1000 }, { "DICT_6X6_50", cv::aruco::DICT_6X6_50 },
-  { "DICT_6X6_100", cv::aruco::DICT_6X6_100 }, { "DICT_6X6_250", cv::aruco::DICT_6X6_250 },
-  { "DICT_6X6_1000", cv::aruco::DICT_6X6_1000 }, { "DICT_7X7_50", cv::aruco::DICT_7X7_50 },
-  { "DICT_7X7_100", cv::aruco::DICT_7X7_100 }, { "DICT_7X7_250", cv::aruco::DICT_7X7_250 },
-  { "DICT_7X7_1000", cv::aruco::DICT_7X7_1000 },
-  { "DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL },
-  { "DICT_APRILTAG_16h5", cv::aruco::DICT_APRILTAG_16h5 },
-  { "DICT_APRILTAG_25h9", cv::aruco::DICT_APRILTAG_25h9 },
-  { "DICT_APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10 },
-  { "DICT_APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11 } };
-
-// OpenCV 4.7 made dictionaries and boards values; its free functions still take pointers.
-#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7)
-cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number)
-{
-  return cv::makePtr<cv::aruco::Dictionary>(cv::aruco::getPredefinedDictionary(number));
-}
-
-cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(
-  const Board& board, const cv::Ptr<cv::aruco::Dictionary>& dictionary)
-{
-  return cv::makePtr<cv::aruco::CharucoBoard>(cv::Size(board.columns, board.rows),
-    static_cast<float>(board.square), static_cast<float>(board.marker), *dictionary);
-}
-#else
-cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number)
-{
-  return cv::aruco::getPredefinedDictionary(number);
-}
-
-cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(
-  const Board& board, const cv::Ptr<cv::aruco::Dictionary>& dictionary)
-{
-  return cv::aruco::CharucoBoard::create(board.columns, board.rows,
-    static_cast<float>(board.square), static_cast<float>(board.marker), dictionary);
-}
-#endif
-
-cv::Ptr<cv::aruco::Dictionary> FindDictionary(const Board& board)
-{
-  for (const DictionaryName& entry : dictionaries)
-  {
-    if (board.dictionary == entry.name)
-    {
-      const auto dictionary = PredefinedDictionary(entry.number);
-      if (board.columns * board.rows / 2 > dictionary->bytesList.rows)
-      {
-        throw Error("The dictionary " + board.dictionary + " has " +
-          std::to_string(dictionary->bytesList.rows) + " markers, and a board of " +
-          std::to_string(board.columns) + " x " + std::to_string(board.rows) + " squares needs " +
-          std::to_string(board.columns * board.rows / 2) + ".");
-      }
-      return dictionary;
-    }
-  }
-  throw Error("There is no dictionary of markers called '" + board.dictionary + "'.");
-}
-
-BoardCorners CornersFromOpenCV(const std::vector<int>& ids, const std::vector<cv::Point2f>& points)
-{
-  BoardCorners corners;
-  corners.ids = ids;
-  for (const cv::Point2f& point : points)
-  {
-    corners.pixels.emplace_back(point.x + 0.5, point.y + 0.5);
-  }
-  return corners;
-}
-
-BoardCorners DetectCharuco(const cv::Mat& gray, const Board& board)
-{
-  const auto dictionary = FindDictionary(board);
-  const auto charuco = MakeCharuco(board, dictionary);
-  std::vector<std::vector<cv::Point2f>> markers;
-  std::vector<int> markerIds, ids;
-  cv::aruco::detectMarkers(gray, dictionary, markers, markerIds);
-  std::vector<cv::Point2f> points;
-  if (!markerIds.empty())
-  {
-    cv::aruco::interpolateCornersCharuco(markers, markerIds, gray, charuco, points, ids);
-  }
-  return CornersFromOpenCV(ids, points);
-}
 
 BoardCorners DetectChessboard(const cv::Mat& gray, const Board& board)
 {
@@ -364,6 +270,17 @@ private:
 
 }
 
+BoardCorners CornersFromOpenCV(const std::vector<int>& ids, const std::vector<cv::Point2f>& points)
+{
+  BoardCorners corners;
+  corners.ids = ids;
+  for (const cv::Point2f& point : points)
+  {
+    corners.pixels.emplace_back(point.x + 0.5, point.y + 0.5);
+  }
+  return corners;
+}
+
 std::vector<Eigen::Vector3d> BoardPoints(const Board& board)
 {
   const bool charuco = board.kind == Board::Kind::Charuco;
@@ -381,11 +298,22 @@ std::vector<Eigen::Vector3d> BoardPoints(const Board& board)
   return points;
 }
 
-BoardCorners DetectBoard(const cv::Mat& gray, const Board& board)
+BoardDetection DetectLayouts(const cv::Mat& gray, const Board& board)
 {
   board.Check();
-  return board.kind == Board::Kind::Charuco ? DetectCharuco(gray, board)
-                                            : DetectChessboard(gray, board);
+  if (board.kind == Board::Kind::Charuco)
+  {
+    return DetectCharuco(gray, board);
+  }
+  BoardDetection detection;
+  detection.corners = DetectChessboard(gray, board);
+  return detection;
+}
+
+BoardCorners DetectBoard(const cv::Mat& gray, const Board& board)
+{
+  const BoardDetection detection = DetectLayouts(gray, board);
+  return detection.formerMarkers > detection.markers ? detection.formerCorners : detection.corners;
 }
 
 BoardCorners FindBoardCorners(const cv::Mat& gray, const Board& board, const CalibratedImage& image)

@@ -19,14 +19,25 @@ struct BoardCorners
   std::vector<Eigen::Vector2d> pixels; ///< COLMAP's convention
 };
 
+/// What a picture shows of a ChArUco board in both of its layouts: OpenCV 4.6 made the first square of a
+/// board with an even number of rows black, which was white before and still is on boards of other makers.
+struct BoardDetection
+{
+  BoardCorners corners, formerCorners; ///< in the present and the former layout
+  int markers = 0, formerMarkers = 0;  ///< that lie where the layout has them
+};
+
 /// All inner corners of a board, in its frame: x along the columns, y against the rows, z out of the
 /// board towards who sees it, the origin in the middle of the board.
 std::vector<Eigen::Vector3d> BoardPoints(const Board& board);
 
-/// Finds a board in a grey picture. A ChArUco board may be partly hidden; of a chessboard all inner
+/// Finds a board in a grey picture, in the layout that more of its markers fit. A ChArUco board may be partly hidden; of a chessboard all inner
 /// corners must be seen. No corners mean that the board was not found. Throws Error for a dictionary that
 /// does not exist or has too few markers.
 BoardCorners DetectBoard(const cv::Mat& gray, const Board& board);
+
+/// The same in both layouts: which one it is, all pictures tell together.
+BoardDetection DetectLayouts(const cv::Mat& gray, const Board& board);
 
 /// Once the camera is about known: all corners of the board that the picture shows, also those whose
 /// markers are hidden. A corner counts when the four squares about it look like it and when it is

@@ -3,6 +3,7 @@
 
 #include "Common/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/FileNames.h"
 #include "Text/WholeFile.h"
 
 #include <cstdint>
@@ -42,13 +43,20 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
 {
   std::error_code ignored;
   fs::create_directory(folder, ignored);
+  std::vector<std::string> files;
   for (const BoardPicture& picture : calibration.pictures)
   {
+    files.push_back(picture.file);
+  }
+  const std::vector<std::string> names = DistinctFileNames(files);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const BoardPicture& picture = calibration.pictures[i];
     if (!picture.used)
     {
       continue;
     }
-    const fs::path target = fs::path(folder) / (fs::path(picture.file).stem().string() + ".jpg");
+    const fs::path target = fs::path(folder) / (names[i] + ".jpg");
     const cv::Mat pixels =
       cv::imread(picture.file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     if (pixels.empty())

@@ -65,7 +65,7 @@ SparseModel BoardCalibration::Model(const Board& board, const std::string& folde
     points[i].id = i + 1;
     points[i].position = BoardPoints(board)[i];
   }
-  std::map<std::pair<int, int>, std::uint32_t> cameras;
+  std::map<int, std::uint32_t> cameras;
   for (const BoardPicture& picture : this->pictures)
   {
     if (!picture.used)
@@ -73,8 +73,7 @@ SparseModel BoardCalibration::Model(const Board& board, const std::string& folde
       continue;
     }
     const auto next = static_cast<std::uint32_t>(cameras.size() + 1);
-    const auto [camera, isNew] = cameras.emplace(
-      std::make_pair(picture.image.camera.width, picture.image.camera.height), next);
+    const auto [camera, isNew] = cameras.emplace(picture.cameraIndex, next);
     if (isNew)
     {
       model.cameras.push_back(LensOf(picture.image, next));

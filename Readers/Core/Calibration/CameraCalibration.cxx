@@ -26,6 +26,12 @@ std::size_t CountCoefficients(const std::vector<double>& distortion)
   return count;
 }
 
+double CameraFit::Criterion() const
+{
+  const auto n = static_cast<double>(this->corners);
+  return n * std::log(std::max(this->squares, 1e-20) / n) + this->parameters * std::log(n);
+}
+
 CameraCalibration::CameraCalibration(std::vector<BoardPicture*> pictures,
   const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
   : Pictures(std::move(pictures))
@@ -238,10 +244,7 @@ CameraCalibration::Fit CameraCalibration::BestFit() const
       break;
     }
     Fit fit = this->Calibrate(coefficients);
-    // The errors of the x and y of a corner are dependent: it counts as one observation.
-    const double corners = static_cast<double>(fit.corners);
-    const double criterion = corners * std::log(std::max(fit.squares, 1e-20) / corners) +
-      fit.parameters * std::log(corners);
+    const double criterion = fit.Criterion();
     if (criterion < least)
     {
       least = criterion;

@@ -11,6 +11,18 @@
 namespace freespace
 {
 
+/// How well a camera explains its images of a board.
+struct CameraFit
+{
+  double squares = 0; ///< sum of the squared errors
+  std::size_t corners = 0;
+  int parameters = 0;
+
+  /// The Bayesian information criterion: the less the better. The errors of the x and y of a corner are
+  /// dependent: it counts as one observation.
+  double Criterion() const;
+};
+
 /// Calibrates one camera from its images of a board: a fit with cv::calibrateCamera, rejection of
 /// outliers, a second detection guided by the fit, and the choice of the number of distortion
 /// coefficients by the Bayesian information criterion. Pixels in here follow OpenCV's convention.
@@ -26,16 +38,16 @@ public:
   /// left or when they do not determine a camera.
   void Run();
 
+  /// The fit to the corners that the images have, none of which is dropped. Throws Error like Run.
+  CameraFit Summary() const { return this->BestFit(); }
+
 private:
-  struct Fit
+  struct Fit : CameraFit
   {
     cv::Matx33d matrix;
     std::vector<double> distortion;
     std::vector<cv::Mat> rotations, translations;
     std::vector<std::vector<double>> errors; // per image and corner, pixels
-    double squares = 0;                      // sum of the squared errors
-    std::size_t corners = 0;
-    int parameters = 0;
   };
 
   cv::Mat FirstGuess() const;

@@ -3,6 +3,7 @@
 
 #include "Common/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/NameEncoding.h"
 #include "Text/TextSource.h"
 #include "SparseModel/ReadSparseModel.h"
 
@@ -84,7 +85,7 @@ public:
     {
       this->Fail("here should stand a text in quotes that is not empty");
     }
-    return this->Value.get<std::string>();
+    return NameFromUtf8(this->Value.get<std::string>());
   }
 
   double Number() const
@@ -136,6 +137,11 @@ Cluster ReadCluster(const Node& node)
   node.ExpectObject({ "name", "reference", "triplets" });
   Cluster cluster;
   cluster.name = node.At("name").Text();
+  const fs::path path(cluster.name);
+  if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
+  {
+    node.Fail("the name of a cluster, " + cluster.name + ", is a path that leaves its folder");
+  }
   cluster.reference = node.At("reference").Text();
   for (const Node& triplet : node.At("triplets").Elements())
   {
@@ -270,9 +276,13 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson JsonFromCluster(const Cluster& cluster)
 {
   OrderedJson json;
-  json["name"] = cluster.name;
-  json["reference"] = cluster.reference;
-  json["triplets"] = cluster.triplets;
+  json["name"] = Utf8FromName(cluster.name);
+  json["reference"] = Utf8FromName(cluster.reference);
+  for (const std::array<std::string, 3>& triplet : cluster.triplets)
+  {
+    json["triplets"].push_back(
+      { Utf8FromName(triplet[0]), Utf8FromName(triplet[1]), Utf8FromName(triplet[2]) });
+  }
   return json;
 }
 
@@ -348,8 +358,8 @@ Scene ReadScene(const std::string& file)
 void WriteScene(const Scene& scene, const std::string& file)
 {
   OrderedJson json;
-  json["images"] = Rebase(scene.file, scene.images, file);
-  json["model"] = Rebase(scene.file, scene.model, file);
+  json["images"] = Utf8FromName(Rebase(scene.file, scene.images, file));
+  json["model"] = Utf8FromName(Rebase(scene.file, scene.model, file));
   for (const Cluster& cluster : scene.clusters)
   {
     json["clusters"].push_back(JsonFromCluster(cluster));
@@ -360,8 +370,7 @@ void WriteScene(const Scene& scene, const std::string& file)
   }
   AtomicOutput target(file);
   std::ofstream stream(target.Path());
-  // Bytes that are no UTF-8, which file names may have, are replaced rather than thrown at.
-  stream << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << "\n";
+  stream << json.dump(1) << "\n";
   stream.close();
   if (!stream)
   {

@@ -2,6 +2,7 @@
 #include "Texture/ChartCutter.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <numeric>
 #include <queue>
@@ -12,7 +13,8 @@ namespace freespace
 namespace
 {
 
-constexpr double LeastCosine = 0.4; // between a chart's direction and its triangles' normals
+constexpr double LeastCosine = 0.4;   // between a chart's direction and its triangles' normals
+constexpr double LongestSide = 65536; // of a triangle in texels; no texture holds a longer one
 
 std::uint64_t Cell(int column, int row)
 {
@@ -93,6 +95,14 @@ bool ChartCutter::Fits(const Chart& chart, int triangle)
   for (int i = 0; i < 3; ++i)
   {
     flat[i] = chart.Flat(this->Surface.Corner(triangle, i)) / this->Texel;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!((flat[i] - flat[(i + 1) % 3]).cwiseAbs().maxCoeff() < LongestSide) ||
+      !(flat[i].cwiseAbs().maxCoeff() < INT_MAX / 2.0))
+    {
+      return chart.triangles.empty(); // by itself, until texels are larger
+    }
   }
   const float height = static_cast<float>(this->Surface.Middle(triangle)[chart.axis]);
   const double extent = (flat[0] - flat[1]).norm() + (flat[0] - flat[2]).norm();

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -20,7 +21,7 @@ namespace
 {
 
 const std::string charuco = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
-const std::string chessboard = "chessboard:7x5:0.03";
+const std::string chessboard = "chessboard:7x6:0.03";
 
 std::vector<CalibratedImage> Cameras(const std::vector<double>& distortion)
 {
@@ -36,9 +37,11 @@ std::vector<CalibratedImage> Cameras(const std::vector<double>& distortion)
 
 // Writes what the cameras see of the board and returns the names of the files.
 std::vector<std::string> RenderAll(const TemporaryFolder& folder, const std::string& board,
-  const std::vector<CalibratedImage>& cameras, bool hidePart)
+  const std::vector<CalibratedImage>& cameras, bool hidePart, bool hasFormerLayout = false,
+  const std::string& subfolder = "")
 {
-  const BoardRendering rendering(BoardFromText(board));
+  const BoardRendering rendering(BoardFromText(board), hasFormerLayout);
+  std::filesystem::create_directories(folder.Path(subfolder));
   std::vector<std::string> files;
   for (std::size_t i = 0; i < cameras.size(); ++i)
   {
@@ -51,7 +54,7 @@ std::vector<std::string> RenderAll(const TemporaryFolder& folder, const std::str
     {
       cv::rectangle(picture, { 180 + 10 * static_cast<int>(i), 120, 90, 110 }, { 90 }, cv::FILLED);
     }
-    files.push_back(folder.Path("picture" + std::to_string(i) + ".png"));
+    files.push_back(folder.Path(subfolder + "picture" + std::to_string(i) + ".png"));
     cv::imwrite(files.back(), picture);
   }
   return files;
@@ -227,6 +230,60 @@ TEST(BoardCalibration, Chessboard)
     EXPECT_GE(picture.corners.ids.size(), 30u);
     EXPECT_NEAR(picture.image.camera.K(0, 0) / 560, 1, 0.002);
   }
+}
+
+TEST(BoardCalibration, ChessboardThatLooksTheSameTurned)
+{
+  for (const char* board : { "chessboard:8x6:0.03", "chessboard:7x7:0.03", "chessboard:7x5:0.03" })
+  {
+    ExpectError([&]() { Calibrate({ "none.png" }, board); }, { "turned", "even" });
+  }
+}
+
+// A board of 8 x 6 squares of the former layout is one of 8 x 7 without its first row and with other numbers.
+TEST(BoardCalibration, FormerLayoutOfCharuco)
+{
+  TemporaryFolder folder;
+  const std::string text = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
+  const std::vector<CalibratedImage> truth = Cameras({});
+  const BoardCalibration former = Calibrate(RenderAll(folder, text, truth, false, true), text);
+  EXPECT_TRUE(former.hasFormerLayout);
+  ExpectCameras(former, truth);
+  EXPECT_FALSE(Calibrate(RenderAll(folder, text, truth, false), text).hasFormerLayout);
+}
+
+// Pictures of two folders with the same names and size, of lenses of 560 and 616 pixels.
+TEST(BoardCalibration, TwoCamerasOfOneSize)
+{
+  TemporaryFolder folder;
+  std::vector<CalibratedImage> truth = Cameras({});
+  std::vector<std::string> files = RenderAll(folder, charuco, truth, false, false, "a/");
+  for (CalibratedImage& camera : truth)
+  {
+    camera.camera.K(0, 0) = camera.camera.K(1, 1) = 616;
+  }
+  const std::vector<std::string> others = RenderAll(folder, charuco, truth, false, false, "b/");
+  files.insert(files.end(), others.begin(), others.end());
+  const BoardCalibration calibration = Calibrate(files, charuco);
+  const SparseModel model = calibration.Model(BoardFromText(charuco), folder.Path());
+  ASSERT_EQ(model.cameras.size(), 2u);
+  EXPECT_NEAR(model.cameras[0].parameters[0], 560, 1.2);
+  EXPECT_NEAR(model.cameras[1].parameters[0], 616, 1.2);
+  WriteBoardPictures(calibration, folder.Path("boards"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.Path("boards")),
+              std::filesystem::directory_iterator()),
+    static_cast<std::ptrdiff_t>(files.size()));
+}
+
+TEST(BoardCalibration, OneCameraInTwoFolders)
+{
+  TemporaryFolder folder;
+  const std::vector<CalibratedImage> truth = Cameras({});
+  std::vector<std::string> files = RenderAll(folder, charuco, truth, false, false, "a/");
+  const std::vector<std::string> others = RenderAll(folder, charuco, truth, false, false, "b/");
+  files.insert(files.end(), others.begin(), others.end());
+  EXPECT_EQ(
+    Calibrate(files, charuco).Model(BoardFromText(charuco), folder.Path()).cameras.size(), 1u);
 }
 
 TEST(BoardCalibration, PictureWithoutABoardIsLeftOut)

@@ -103,6 +103,21 @@ TEST(Scene, Chessboard)
   EXPECT_EQ(scene.board->rows, 6);
 }
 
+TEST(Scene, NamesThatAreNotUtf8)
+{
+  TemporaryFolder folder;
+  Scene scene;
+  scene.file = folder.Path("scene.json");
+  scene.images = "caf\xe9";
+  scene.model = "m";
+  scene.clusters.push_back({ "\xe9", "\xe9.jpg", { { "a", "\xe9.jpg", "b\n" } } });
+  WriteScene(scene, scene.file);
+  const Scene read = ReadScene(scene.file);
+  EXPECT_EQ(read.images, scene.images);
+  EXPECT_EQ(read.clusters[0].name, "\xe9");
+  EXPECT_EQ(read.clusters[0].triplets, scene.clusters[0].triplets);
+}
+
 TEST(Scene, WrittenAndReadAgain)
 {
   TemporaryFolder folder;
@@ -228,4 +243,24 @@ TEST(Scene, ClusterThatNamesAnUnknownImage)
     EXPECT_NE(std::string(error.what()).find("cluster one"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find(", d."), std::string::npos) << error.what();
   }
+}
+
+TEST(Scene, NamesOfClustersThatLeaveTheirFolder)
+{
+  TemporaryFolder folder;
+  for (const std::string name : { "../../escape", "/escape", "a/../../b" })
+  {
+    const std::string file = folder.Write("scene.json",
+      R"({ "images": "i", "model": "m", "clusters": [{ "name": ")" + name +
+        R"(", "reference": "c", "triplets": [["l", "c", "r"]] }] })");
+    EXPECT_THROW(ReadScene(file), Error) << name;
+  }
+}
+
+TEST(Scene, NumberThatIsTooLarge)
+{
+  TemporaryFolder folder;
+  EXPECT_THROW(ReadScene(folder.Write("scene.json",
+                 WithBoard(R"({ "type": "chessboard", "corners": [9, 6], "square_m": 1e999 })"))),
+    Error);
 }

@@ -66,6 +66,7 @@ void Calibrate(Session& session, const Settings& settings)
   calibration->WritePictures(settings.output + "/boards");
   calibration->WriteScene(settings.output + "/scene.json", settings.output);
   session.ThrowIfFailed();
+  session.Log("wrote the cameras and pictures in " + settings.output);
   std::cout << calibration->GetText();
 }
 

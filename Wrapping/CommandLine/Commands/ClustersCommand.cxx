@@ -57,6 +57,7 @@ void ProposeClusters(Session& session, const Settings& settings)
   {
     proposal->WriteScene(settings.output);
     session.ThrowIfFailed();
+    session.Log("wrote " + settings.output);
   }
   std::cout << proposal->GetText() << proposal->GetSummary() << "\n";
 }

@@ -72,10 +72,17 @@ std::vector<double> ReadRow(std::string line)
 }
 
 // Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
-std::vector<double> ReadTable(Session& session, const std::string& fileName, std::size_t columns)
+std::vector<double> ReadTable(Session& session, const std::string& name, std::size_t columns)
 {
-  std::ifstream file(fileName);
-  if (!file || std::filesystem::is_directory(fileName))
+  const bool isStandardInput = name == "-";
+  const std::string fileName = isStandardInput ? "the standard input" : name;
+  std::ifstream opened;
+  if (!isStandardInput)
+  {
+    opened.open(name);
+  }
+  std::istream& file = isStandardInput ? std::cin : opened;
+  if (!file || (!isStandardInput && std::filesystem::is_directory(fileName)))
   {
     throw Error("'" + fileName + "' cannot be read" + (file ? ": it is a folder." : "."));
   }
@@ -163,14 +170,16 @@ void AddQueryCommand(CLI::App& program, Session& session)
   command->add_option("maps", settings->maps, "What 'triangulate' wrote")
     ->required()
     ->type_name("MAPS.vtm");
-  auto* points =
-    command->add_option("--points", settings->points, "Rows x,y,z; tells 1 for each that is free")
+  auto* points = command
+                   ->add_option("--points", settings->points,
+                     "Rows x,y,z; - reads the standard input; tells 1 for each that is free")
+                   ->type_name("FILE.csv");
+  auto* segments =
+    command
+      ->add_option("--segments", settings->segments,
+        "Rows x0,y0,z0,x1,y1,z1, or -; tells where each first leaves free space, as a "
+        "fraction of it; inf: nowhere")
       ->type_name("FILE.csv");
-  auto* segments = command
-                     ->add_option("--segments", settings->segments,
-                       "Rows x0,y0,z0,x1,y1,z1; tells where each first leaves free space, as a "
-                       "fraction of it; inf: nowhere")
-                     ->type_name("FILE.csv");
   points->excludes(segments);
   settings->region.AddTo(*command);
   command
@@ -183,7 +192,8 @@ void AddQueryCommand(CLI::App& program, Session& session)
       "--min-views", settings->minimumViews, "Views that must agree that a point is free")
     ->check(Positive())
     ->capture_default_str();
-  command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv");
+  command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv\n"
+                  "  grep -v '^#' path.xyz | freespace query maps.vtm --points -");
   command->callback(session.Defer(
     [settings, &session]()
     {

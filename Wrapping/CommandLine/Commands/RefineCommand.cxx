@@ -24,7 +24,7 @@ struct Settings
   bool text = false;
 };
 
-void Refine(const Settings& settings)
+void Refine(Session& session, const Settings& settings)
 {
   const Scene scene = ReadScene(settings.scene);
   const SparseModel model = ReadSceneModel(scene);
@@ -35,6 +35,7 @@ void Refine(const Settings& settings)
     RefineCameras(scene, model, edges, MatcherOptions(), options, SMPParallelFor, Progress());
   WriteColmapModel(WithCameras(model, refined.images), settings.output,
     settings.text ? ColmapFormat::Text : ColmapFormat::Binary);
+  session.Log("wrote the cameras in " + settings.output);
   char text[200];
   std::snprintf(text, sizeof(text),
     "%zu of %zu images matched, %zu tracks; median distance across the edges %.3f -> %.3f "
@@ -62,7 +63,7 @@ void AddRefineCommand(CLI::App& program, Session& session)
   command->add_flag("--text", settings->text, "Write .txt rather than .bin files");
   command->footer("Writes a COLMAP model, in the frame and scale of the given one.\n"
                   "Example:\n  freespace refine scene.json -o refined");
-  command->callback(session.Defer([settings]() { Refine(*settings); }));
+  command->callback(session.Defer([settings, &session]() { Refine(session, *settings); }));
 }
 
 }

@@ -176,11 +176,10 @@ void AddRenderCommand(CLI::App& program, Session& session)
   auto settings = std::make_shared<Settings>();
   CLI::App* command = program.add_subcommand("render", "Make a picture of a surface");
   AddOptions(*command, *settings);
-  command->footer(
-    "Examples:\n"
-    "  freespace render mesh.ply -o mesh.png --azimuth 30 --elevation 60 --size 1920x1080\n"
-    "  freespace render mesh.ply -o mesh.png --scene scene.json\n"
-    "  freespace render mesh.ply -o mesh.png --scene scene.json --view c.jpg");
+  command->footer("Examples:\n"
+                  "  freespace render mesh.ply -o mesh.png --azimuth 30 --elevation 60\n"
+                  "  freespace render mesh.ply -o mesh.png --scene scene.json\n"
+                  "  freespace render mesh.ply -o mesh.png --scene scene.json --view c.jpg");
   command->callback(session.Defer([settings, &session]() { Render(session, *settings); }));
 }
 

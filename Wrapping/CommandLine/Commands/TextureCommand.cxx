@@ -86,6 +86,7 @@ void Texture(Session& session, const Settings& settings)
   writer->SetInputDataObject(1, baker->GetTexture());
   writer->SetFileName(settings.output);
   session.Write(writer);
+  session.Log("wrote " + settings.output);
 }
 
 }

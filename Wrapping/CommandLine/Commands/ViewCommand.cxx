@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/ViewBlocks.h"
+#include "Files/FileNames.h"
 #include "Output/Animation.h"
 #include "Output/NewFolder.h"
 #include "Output/Picture.h"
@@ -86,11 +87,17 @@ struct Shot
 
 std::vector<Shot> ShotsOfModel(vtkMultiBlockDataSet* cameras, const fs::path& folder)
 {
+  std::vector<std::string> images;
+  for (unsigned int i = 0; i < cameras->GetNumberOfBlocks(); ++i)
+  {
+    images.push_back(BlockName(cameras, i));
+  }
+  const std::vector<std::string> names = DistinctFileNames(images);
   std::vector<Shot> shots;
   for (unsigned int i = 0; i < cameras->GetNumberOfBlocks(); ++i)
   {
-    const fs::path name = fs::path(BlockName(cameras, i)).filename().replace_extension(".png");
-    shots.push_back({ vtkPolyData::SafeDownCast(cameras->GetBlock(i)), (folder / name).string() });
+    shots.push_back(
+      { vtkPolyData::SafeDownCast(cameras->GetBlock(i)), (folder / (names[i] + ".png")).string() });
   }
   return shots;
 }
@@ -218,8 +225,8 @@ void ViewScene(Session& session, const Settings& settings)
   if (film)
   {
     film->Finish(session);
-    session.Log("wrote " + settings.output);
   }
+  session.Log((folder ? "wrote the pictures in " : "wrote ") + settings.output);
 }
 
 }

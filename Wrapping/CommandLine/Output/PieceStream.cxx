@@ -2,6 +2,7 @@
 #include "Output/PieceStream.h"
 
 #include "Common/Error.h"
+#include "PlyWriter.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataSetAttributes.h>
@@ -69,6 +70,8 @@ void PieceStream::Add(vtkPolyData* piece)
                   "cells.");
     }
     place[i] = static_cast<std::int32_t>(this->Points++);
+    this->IsDouble =
+      this->IsDouble || !IsSingle(position[0]) || !IsSingle(position[1]) || !IsSingle(position[2]);
     Put(this->PointFile, position);
   }
   for (vtkIdType t = 0; t < piece->GetNumberOfPolys(); ++t)
@@ -115,15 +118,16 @@ void PieceStream::Finish(const std::string& comment)
   this->Target.Commit();
 }
 
-/// Like vtkPLYWriter.
+/// Like WritePLY.
 void PieceStream::WriteWhole(const std::string& fileName, const std::string& comment)
 {
   std::ofstream file(fileName, std::ios::binary);
-  file << "ply\nformat binary_little_endian 1.0\ncomment VTK generated PLY File\n"
-       << (comment.empty() ? "" : "comment " + comment + "\n")
-       << "obj_info vtkPolyData points and polygons: vtk4.0\nelement vertex " << this->Points
-       << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << this->Triangles
-       << "\nproperty list uchar int vertex_indices\nend_header\n";
+  PlyHeader header;
+  header.comment = comment;
+  header.isDouble = this->IsDouble;
+  header.vertices = this->Points;
+  header.faces = this->Triangles;
+  file << header.Text();
   this->PointFile.seekg(0);
   for (std::int64_t i = 0; i < this->Points && file; ++i)
   {
@@ -131,7 +135,7 @@ void PieceStream::WriteWhole(const std::string& fileName, const std::string& com
     Get(this->PointFile, position);
     for (double coordinate : position)
     {
-      Put(file, static_cast<float>(coordinate));
+      header.isDouble ? Put(file, coordinate) : Put(file, static_cast<float>(coordinate));
     }
   }
   this->TriangleFile.seekg(0);

@@ -49,6 +49,7 @@ private:
   std::map<Position, std::int32_t> Shared;
   std::vector<std::int32_t> SharedPlace;
   std::int64_t Points = 0, Triangles = 0;
+  bool IsDouble = false; ///< whether single precision does not keep all coordinates
 };
 
 }

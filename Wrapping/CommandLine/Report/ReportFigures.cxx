@@ -2,6 +2,7 @@
 #include "Report/ReportFigures.h"
 
 #include "Data/ViewBlocks.h"
+#include "Files/FileNames.h"
 #include "Scene/Scene.h"
 #include "Session/Session.h"
 
@@ -123,10 +124,17 @@ std::vector<ReportView> FeatureFigures(Session& session, const Scene& scene,
   overlay->SetOutputFolder(folder);
   session.Write(overlay);
   std::vector<ReportView> figures;
-  for (const View& view : ViewsFromBlocks(picked))
+  const std::vector<View> views = ViewsFromBlocks(picked);
+  std::vector<std::string> names;
+  for (const View& view : views)
+  {
+    names.push_back(view.name);
+  }
+  names = FileNamesOf(names); // as the overlay's writer has them
+  for (const View& view : views)
   {
     const std::string photograph = scene.ImagePath(view.imageFile);
-    const std::string drawn = (fs::path(folder) / (view.name + ".png")).string();
+    const std::string drawn = (fs::path(folder) / (names[figures.size()] + ".png")).string();
     const std::string count = FormatCount(static_cast<long long>(view.points.size()));
     const int widest = figures.empty() ? widestInPage : widestInViews; // the first is shown large
     figures.push_back({ view.name, count + " features over " + view.imageFile,

@@ -82,7 +82,7 @@ void Session::AddOptions(CLI::App& program)
   program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
   program.add_flag(
     "--strict", this->Strict, "Every warning is an error: nothing is written of what it was about");
-  program.add_option("--threads", this->Threads, "Threads to use; 0 means all cores")
+  program.add_option("--threads", this->Threads, "Threads to use; 0: all cores")
     ->check(CLI::Range(0, 1024))
     ->capture_default_str();
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_NameEncoding_h
+#define freespace_NameEncoding_h
+
+#include <string>
+
+namespace freespace
+{
+
+/// The names of files are bytes, those in JSON and XML are UTF-8 without control characters. A byte that
+/// cannot stand there becomes a character of the private use area, U+EF00 more than the byte (and so do the
+/// bytes of these characters themselves), so that every name comes back from NameFromUtf8 as it was.
+/// Names in UTF-8 stay as they are.
+std::string Utf8FromName(const std::string& name);
+std::string NameFromUtf8(const std::string& text);
+
+/// A name for a message: control characters become \n, \t or \x1b.
+std::string Printable(const std::string& text);
+
+}
+
+#endif

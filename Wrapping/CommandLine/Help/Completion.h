@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Completion_h
+#define freespace_Completion_h
+
+#include "Help/CommandText.h"
+
+namespace freespace
+{
+
+/// What completes the program's commands, options and files in bash and zsh; TextsOf.
+std::string BashCompletion(const std::vector<CommandText>& texts);
+std::string ZshCompletion(const std::vector<CommandText>& texts);
+
+}
+
+#endif

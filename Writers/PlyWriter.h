@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_PlyWriter_h
+#define freespace_PlyWriter_h
+
+#include "vtkFreespaceWritersModule.h" // for the export macro
+
+#include <cstdint>
+#include <string>
+
+class vtkPolyData;
+
+namespace freespace
+{
+
+/// What the header of a binary PLY says.
+struct PlyHeader
+{
+  std::string comment; ///< one line, or empty
+  bool isDouble = false;
+  bool isColored = false;
+  std::int64_t vertices = 0, faces = 0;
+
+  VTKFREESPACEWRITERS_EXPORT std::string Text() const;
+};
+
+/// Whether single precision keeps a coordinate as it is.
+inline bool IsSingle(double coordinate)
+{
+  return static_cast<double>(static_cast<float>(coordinate)) == coordinate;
+}
+
+/// Writes the points and polygons of a surface as a binary PLY, in double precision where single precision
+/// does not keep every coordinate, with the colours of the points unless `colors` is empty. False where the
+/// disk fails. Throws Error where there are more points than a PLY can count.
+bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string& comment,
+  const std::string& fileName);
+
+}
+
+#endif
