@@ -179,6 +179,11 @@ void vtkFreespaceUnion::SetInputConnection(vtkAlgorithmOutput* output)
   }
 }
 
+vtkAlgorithmOutput* vtkFreespaceUnion::GetInputConnection()
+{
+  return this->Inner->Connection;
+}
+
 vtkMTimeType vtkFreespaceUnion::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();

@@ -73,10 +73,13 @@ public:
   void SetInputData(vtkMultiBlockDataSet* maps) { this->SetMaps(maps); }
   ///@}
 
+  ///@{
   /**
    * Takes the maps from a pipeline, which is brought up to date when the function is.
    */
   virtual void SetInputConnection(vtkAlgorithmOutput* output);
+  vtkAlgorithmOutput* GetInputConnection();
+  ///@}
 
   ///@{
   /**

@@ -5,6 +5,9 @@ import tempfile
 import unittest
 
 import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkImplicitBoolean
+from vtkmodules.vtkFiltersCore import vtkCutter
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 import freespace
 
@@ -45,6 +48,32 @@ class TestUpdate(unittest.TestCase):
         surface.SetImplicitFunction(phi)
         with self.assertRaisesRegex(freespace.Error, 'no disparity maps'):
             freespace.update(surface)
+
+    def test_a_union(self):
+        maps = freespace.vtkDelaunayDisparityFilter()
+        maps.SetInputDataObject(freespace.make_views({'a': plane_view()}))
+        phi = freespace.vtkFreespaceUnion()
+        phi.SetInputConnection(maps.GetOutputPort())
+        self.assertIs(freespace.update(phi), phi)
+        self.assertTrue(phi.IsValid())
+        with self.assertRaisesRegex(freespace.Error, 'no disparity maps'):
+            freespace.update(freespace.vtkFreespaceUnion())
+
+    def test_errors_upstream_of_cutters_and_booleans(self):
+        for is_boolean in (False, True):
+            stereo = freespace.vtkEdgeStereoReader(file_name='nowhere.json')
+            maps = freespace.vtkDelaunayDisparityFilter()
+            maps.SetInputConnection(stereo.GetOutputPort())
+            phi = freespace.vtkFreespaceUnion()
+            phi.SetInputConnection(maps.GetOutputPort())
+            both = vtkImplicitBoolean()
+            both.AddFunction(phi)
+            sphere = vtkSphereSource()
+            cutter = vtkCutter()
+            cutter.SetCutFunction(both if is_boolean else phi)
+            cutter.SetInputConnection(sphere.GetOutputPort())
+            with self.assertRaisesRegex(freespace.Error, 'nowhere.json'):
+                freespace.update(cutter)
 
     def test_writers_write(self):
         maps = freespace.vtkDelaunayDisparityFilter()

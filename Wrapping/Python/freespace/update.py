@@ -2,11 +2,24 @@
 """VTK tells of errors by events; Python by exceptions."""
 import re
 
-from vtkmodules.vtkCommonCore import vtkCommand
+from vtkmodules.vtkCommonCore import vtkCollection, vtkCommand
 
 
 class Error(RuntimeError):
     """What a VTK algorithm reported as an error."""
+
+
+# Where algorithms and functions have further ones: contours, cutters, clippers, booleans, unions.
+FUNCTIONS = ('GetImplicitFunction', 'GetCutFunction', 'GetClipFunction', 'GetFunction', 'GetExecutive')
+
+
+def _members(other):
+    """The functions of a collection, the producer of a connection, or the object itself."""
+    if isinstance(other, vtkCollection):
+        return [other.GetItemAsObject(i) for i in range(other.GetNumberOfItems())]
+    if hasattr(other, 'GetProducer'):
+        return [other.GetProducer()]
+    return [other] if hasattr(other, 'AddObserver') else []
 
 
 def _upstream(algorithm):
@@ -17,10 +30,11 @@ def _upstream(algorithm):
         if it is None or it in found:
             continue
         found.append(it)
-        for getter in ('GetImplicitFunction', 'GetMapsConnection', 'GetExecutive'):
+        for getter in FUNCTIONS:
             if hasattr(it, getter):
-                other = getattr(it, getter)()
-                waiting.append(other.GetProducer() if hasattr(other, 'GetProducer') else other)
+                waiting += _members(getattr(it, getter)())
+        if it.IsA('vtkFreespaceUnion'):
+            waiting += _members(it.GetInputConnection())
         if hasattr(it, 'GetTotalNumberOfInputConnections'):
             for port in range(it.GetNumberOfInputPorts()):
                 for i in range(it.GetNumberOfInputConnections(port)):
@@ -36,7 +50,8 @@ def _sentence(text):
 
 
 def update(algorithm, port=0):
-    """Updates an algorithm, or writes where it is a writer, and returns its output.
+    """Updates an algorithm, or writes where it is a writer, and returns its output. A vtkFreespaceUnion is built,
+    and returned itself.
 
     Raises freespace.Error with the first error that the algorithm, or one that it takes its input from,
     reports. Without this, VTK prints the error and goes on with an empty output.
@@ -55,4 +70,6 @@ def update(algorithm, port=0):
             it.RemoveObserver(tag)
     if errors or (isWriter and done == 0):
         raise Error(errors[0] if errors else f'{algorithm.GetClassName()} could not write.')
+    if not hasattr(algorithm, 'GetNumberOfOutputPorts'):
+        return algorithm
     return algorithm.GetOutputDataObject(port) if algorithm.GetNumberOfOutputPorts() else None
