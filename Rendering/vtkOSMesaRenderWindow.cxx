@@ -24,6 +24,8 @@ vtkStandardNewMacro(vtkOSMesaRenderWindow);
 namespace
 {
 
+constexpr int LargestSide = 16384; // what llvmpipe has
+
 // What was current in a thread.
 struct CurrentContext
 {
@@ -79,7 +81,7 @@ vtkOSMesaRenderWindow::vtkOSMesaRenderWindow()
   this->Mapped = 1;
   this->SetOffScreenRendering(1);
   this->SetFrameBlitModeToNoBlit(); // pixels are read from VTK's own framebuffers
-  this->SetScreenSize(16384, 16384);
+  this->SetScreenSize(LargestSide, LargestSide);
   this->Size[0] = this->Size[1] = 300; // as VTK's other windows
 }
 
@@ -87,6 +89,17 @@ vtkOSMesaRenderWindow::~vtkOSMesaRenderWindow()
 {
   this->Finalize();
   this->ReadyForRendering = false; // for the superclass, which finalizes again
+}
+
+void vtkOSMesaRenderWindow::SetSize(int width, int height)
+{
+  if (std::max(width, height) > LargestSide)
+  {
+    vtkErrorMacro("A window of " << width << "x" << height << " pixels cannot be rendered to: "
+                                 << LargestSide << "x" << LargestSide << " is the largest.");
+    return;
+  }
+  this->Superclass::SetSize(width, height);
 }
 
 void vtkOSMesaRenderWindow::Initialize()

@@ -7,7 +7,7 @@
  * as Debian's is. Nobody needs to name the class: where no X server answers, the module's object
  * factory makes it whenever a vtkRenderWindow is asked for, in C++ (with vtk_module_autoinit) and
  * in Python (once freespace.vtkFreespaceRendering is imported, before or after
- * vtkRenderingOpenGL2). It can also be made by name, also where there is an X server. Each window
+ * vtkRenderingOpenGL2), and an interactor without a window system whenever one is asked for. It can also be made by name, also where there is an X server. Each window
  * has a context of its own; several windows may be used in turn, and each from one thread at a
  * time.
  *
@@ -29,6 +29,13 @@ public:
   static vtkOSMesaRenderWindow* New();
   vtkTypeMacro(vtkOSMesaRenderWindow, vtkGenericOpenGLRenderWindow);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  using vtkGenericOpenGLRenderWindow::SetSize;
+  /**
+   * A size beyond what libOSMesa can render to, 16384 x 16384 pixels, is an error; the window keeps the one
+   * that it had.
+   */
+  void SetSize(int width, int height) override;
 
   /**
    * Makes the context, if there is none yet, and VTK's state for it. Rendering does this by itself.

@@ -54,6 +54,7 @@ bool ChooseOSMesa()
   while (vtkObjectFactory* factory = factories->GetNextObjectFactory(at))
   {
     factory->Disable("vtkRenderWindow");
+    factory->Disable("vtkRenderWindowInteractor");
   }
   return true;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOSMesaRenderWindow.h"
 
+#include "Support/ErrorObserver.h"
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkNew.h>
@@ -201,6 +203,28 @@ TEST(OSMesaRenderWindow, InteractorNeedsNoXServer)
   vtkNew<vtkOSMesaRenderWindow> window;
   vtkRenderWindowInteractor* interactor = window->MakeRenderWindowInteractor();
   EXPECT_TRUE(interactor->IsA("vtkGenericRenderWindowInteractor"));
+}
+
+TEST(OSMesaRenderWindow, AnInteractorOfOnesOwnRendersIt)
+{
+  SphereWindow made(80, 60, 255);
+  vtkNew<vtkRenderWindowInteractor> interactor; // VTK::RenderingUI has an override of it
+  interactor->SetRenderWindow(made.window);
+  interactor->Initialize();
+  interactor->Render();
+  made.Check();
+}
+
+TEST(OSMesaRenderWindow, ASizeThatIsTooLargeIsAnError)
+{
+  SphereWindow made(80, 60, 255);
+  vtkNew<freespace::ErrorObserver> errors;
+  made.window->AddObserver(vtkCommand::ErrorEvent, errors);
+  made.window->SetSize(20000, 20000);
+  EXPECT_EQ(errors->Count, 1);
+  EXPECT_TRUE(errors->Has("20000x20000"));
+  EXPECT_EQ(made.window->GetSize()[0], 80);
+  made.Check();
 }
 
 TEST(OSMesaRenderWindow, ManyAfterEachOther)

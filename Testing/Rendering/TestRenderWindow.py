@@ -11,7 +11,7 @@ if sys.argv[1] == 'rendering-last':
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkRenderWindowInteractor
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -53,6 +53,13 @@ def check(window, background):
 
 
 red, blue = (1, 0, 0), (0, 0, 1)
+interacted = sphere_window(80, 60, (1, 0, 0))
+interactor = vtkRenderWindowInteractor()  # of which vtkRenderingUI has an override
+interactor.SetRenderWindow(interacted)
+interactor.Initialize()
+interactor.Render()
+check(interacted, (1, 0, 0))
+
 first, second = sphere_window(200, 160, red), sphere_window(120, 100, blue)
 for repeat in range(2):
     check(first, red)

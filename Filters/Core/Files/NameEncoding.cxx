@@ -39,7 +39,7 @@ Character CharacterAt(const std::string& text, std::size_t at)
   constexpr unsigned int least[] = { 0, 0, 0x80, 0x800, 0x10000 };
   const bool isSurrogate = code >= 0xD800 && code < 0xE000;
   return code < least[length] || isSurrogate || code > 0x10FFFF ? Character{}
-                                                               : Character{ code, length };
+                                                                : Character{ code, length };
 }
 
 bool IsControl(unsigned int code)

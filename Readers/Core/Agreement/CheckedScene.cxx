@@ -57,7 +57,9 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
   if (!wrong.empty())
   {
     checked.warnings.push_back(std::to_string(wrong.size()) + " of " + std::to_string(all) +
-      (wrong.size() == 1 ? " images is" : " images are") + " left out: their edges contradict those of the others, the picture is another or turned, or the camera "
+      (wrong.size() == 1 ? " images is" : " images are") +
+      " left out: their edges contradict those of the others, the picture is another or turned, or "
+      "the camera "
       "is wrong: " +
       Joined(wrong));
     LeaveOut({ wrong.begin(), wrong.end() }, checked);
@@ -65,8 +67,8 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
   checked.scene = checked.given;
   if (checked.scene.clusters.empty())
   {
-    checked.scene = WithProposedClusters(
-      std::move(checked.scene), checked.model, clusters, &checked.choice);
+    checked.scene =
+      WithProposedClusters(std::move(checked.scene), checked.model, clusters, &checked.choice);
   }
   return checked;
 }

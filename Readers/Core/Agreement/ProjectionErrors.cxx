@@ -14,8 +14,8 @@ namespace freespace
 namespace
 {
 
-constexpr std::size_t Few = 10;        // observations that tell nothing
-constexpr double TimesTheUsual = 5;    // and farther: no longer the error of a sloppy calibration
+constexpr std::size_t Few = 10;     // observations that tell nothing
+constexpr double TimesTheUsual = 5; // and farther: no longer the error of a sloppy calibration
 
 // Of the observations of points; a point behind the camera is as far off as can be. -1: too few.
 double MedianError(const CalibratedImage& image, const SparseImage& source,

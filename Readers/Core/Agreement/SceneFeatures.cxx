@@ -50,10 +50,9 @@ EdgeView FeaturesOf(EdgeStore& edges, const std::vector<CalibratedImage>& images
 
 std::string Describe(const EdgeView& view)
 {
-  const std::string count = view.points.size() < 3
-    ? "fewer than three features"
-    : std::to_string(view.points.size()) + " features of " + std::to_string(view.tokens) +
-      " edge pixels";
+  const std::string count = view.points.size() < 3 ? "fewer than three features"
+                                                   : std::to_string(view.points.size()) +
+      " features of " + std::to_string(view.tokens) + " edge pixels";
   return view.name + " (" + count + ")";
 }
 

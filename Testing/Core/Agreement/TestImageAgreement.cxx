@@ -66,8 +66,7 @@ TEST(ImageAgreement, SingleWrongImagesAreFound)
 
 TEST(ImageAgreement, OfTwoWorldsTheLargerIsRight)
 {
-  const Agreement found =
-    FindAgreement(12, Row({ 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1 }, 1));
+  const Agreement found = FindAgreement(12, Row({ 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1 }, 1));
   EXPECT_EQ(found.contradicted, (std::vector<int>{ 8, 9, 10, 11 }));
 }
 

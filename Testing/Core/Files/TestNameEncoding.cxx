@@ -9,7 +9,8 @@ using namespace freespace;
 
 TEST(NameEncoding, NamesInUtf8Stay)
 {
-  for (const std::string name : { "", "a b.jpg", "caf\xc3\xa9", "\xe6\x97\xa5\xe6\x9c\xac", "\xf0\x9f\x93\xb7" })
+  for (const std::string name :
+    { "", "a b.jpg", "caf\xc3\xa9", "\xe6\x97\xa5\xe6\x9c\xac", "\xf0\x9f\x93\xb7" })
   {
     EXPECT_EQ(Utf8FromName(name), name);
     EXPECT_EQ(NameFromUtf8(name), name);
@@ -18,7 +19,11 @@ TEST(NameEncoding, NamesInUtf8Stay)
 
 TEST(NameEncoding, Latin1)
 {
-  EXPECT_EQ(Utf8FromName("caf\xe9" "0.jpg"), "caf\xee\xbf\xa9" "0.jpg") << "U+EFE9";
+  EXPECT_EQ(Utf8FromName("caf\xe9"
+                         "0.jpg"),
+    "caf\xee\xbf\xa9"
+    "0.jpg")
+    << "U+EFE9";
 }
 
 TEST(NameEncoding, EveryNameComesBackAndHasNoControls)
@@ -34,7 +39,8 @@ TEST(NameEncoding, EveryNameComesBackAndHasNoControls)
     }
     const std::string text = Utf8FromName(name);
     EXPECT_EQ(NameFromUtf8(text), name);
-    EXPECT_EQ(Utf8FromName(text).find_first_of(std::string("\n\t\x01\x7f\0", 5)), std::string::npos);
+    EXPECT_EQ(
+      Utf8FromName(text).find_first_of(std::string("\n\t\x01\x7f\0", 5)), std::string::npos);
   }
 }
 
