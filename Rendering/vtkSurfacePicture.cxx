@@ -2,7 +2,7 @@
 #include "vtkSurfacePicture.h"
 
 #include "CameraForVTK.h"
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Data/PngBytes.h"
 #include "Data/SurfaceViewpoint.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOccupancyMapWriter.h"
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Common/ParallelForWithProgress.h"

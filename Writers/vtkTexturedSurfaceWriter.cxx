@@ -2,7 +2,7 @@
 #include "vtkTexturedSurfaceWriter.h"
 
 #include "BinaryGLTF.h"
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/PngBytes.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The batch program: surfaces from calibrated photographs, without a display.
 #include "Commands/Commands.h"
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Help/Documentation.h"
 #include "Help/HelpFormatter.h"
 #include "Help/UnknownWord.h"
+#include "Session/Interrupts.h"
 #include "Session/Ranks.h"
 #include "Session/Session.h"
 
@@ -20,7 +21,6 @@ namespace
 
 constexpr int failed = 1;
 constexpr int misused = 2;
-constexpr int stopped = 130;
 
 // The options of the command that was given, without those of the others and those not set.
 std::string ConfigText(const CLI::App& program)
@@ -223,6 +223,7 @@ int Run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  freespace::ListenToInterrupts();
   // Of the processes that mpiexec started only the first one prints.
   if (freespace::LaunchedRank() > 0)
   {
@@ -236,7 +237,7 @@ int main(int argc, char* argv[])
   catch (const freespace::Aborted& abort)
   {
     std::cerr << "freespace: " << abort.what() << "\n";
-    return stopped;
+    return freespace::InterruptStatus();
   }
   catch (const std::exception& error)
   {

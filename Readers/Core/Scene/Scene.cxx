@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/Scene.h"
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Files/NameEncoding.h"
 #include "Text/TextSource.h"

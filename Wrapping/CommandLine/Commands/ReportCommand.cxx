@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "Output/NewFolder.h"

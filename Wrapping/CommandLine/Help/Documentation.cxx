@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Help/Documentation.h"
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 #include "Help/CommandText.h"
 #include "Help/Completion.h"
 #include "Help/ManPage.h"

@@ -2,7 +2,7 @@
 #ifndef freespace_Animation_h
 #define freespace_Animation_h
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 
 #include <vtkNew.h>
 #include <vtkOggTheoraWriter.h>

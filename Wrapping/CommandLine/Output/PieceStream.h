@@ -2,7 +2,7 @@
 #ifndef freespace_PieceStream_h
 #define freespace_PieceStream_h
 
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 
 #include <array>
 #include <cstdint>

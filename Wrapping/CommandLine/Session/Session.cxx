@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Session/ErrorCollector.h"
+#include "Session/Interrupts.h"
 #include "Session/ProgressLine.h"
 #include "Session/Ranks.h"
 #include "Session/StderrCapture.h"
@@ -27,19 +28,10 @@ namespace freespace
 namespace
 {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-// The first interrupt asks the running stage to stop; a second one ends the program at once.
-void OnInterrupt(int signal)
-{
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
 void OnProgress(vtkObject* caller, unsigned long, void* line, void* fraction)
 {
   static_cast<ProgressLine*>(line)->Show(*static_cast<double*>(fraction));
-  if (!interrupted)
+  if (Interrupt() == 0)
   {
     return;
   }
@@ -92,9 +84,8 @@ void Session::Begin()
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkOutputWindow::SetInstance(Collector());
   vtkSMPTools::Initialize(this->Threads);
-  std::signal(SIGINT, OnInterrupt);
-  std::signal(SIGTERM, OnInterrupt);
   std::signal(SIGXFSZ, SIG_IGN); // a write fails then, which can be told
+  std::signal(SIGPIPE, SIG_IGN); // so does it
 }
 
 std::function<void()> Session::Defer(std::function<void()> action, Sharing sharing)
@@ -163,7 +154,7 @@ void Session::Write(vtkWriter* writer)
 
 void Session::ThrowIfFailed()
 {
-  if (interrupted)
+  if (Interrupt() != 0)
   {
     throw Aborted();
   }

@@ -74,6 +74,12 @@ StderrCapture::~StderrCapture()
   }
 }
 
+int StderrCapture::RealDescriptor()
+{
+  const int real = standardError;
+  return real >= 0 ? real : STDERR_FILENO;
+}
+
 std::vector<std::string> StderrCapture::Lines() const
 {
   std::string all;

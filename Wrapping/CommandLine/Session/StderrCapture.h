@@ -21,6 +21,9 @@ public:
 
   /// The lines so far, each once.
   std::vector<std::string> Lines() const;
+
+  /// The standard error's descriptor, also while one lives.
+  static int RealDescriptor();
 };
 
 }

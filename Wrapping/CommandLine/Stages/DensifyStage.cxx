@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Files/WorkFolder.h"
 #include "Scene/Scene.h"
 #include "Session/Session.h"
 #include "Stages/StereoStage.h"
@@ -15,8 +16,6 @@
 
 #include <filesystem>
 
-#include <stdlib.h>
-
 namespace freespace
 {
 
@@ -28,27 +27,18 @@ class ScratchFolder
 {
 public:
   ScratchFolder()
+    : Folder(std::filesystem::temp_directory_path())
   {
-    std::string pattern =
-      (std::filesystem::temp_directory_path() / "freespace-densify-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
+    if (this->Folder.Path().empty())
     {
       throw Error("Cannot write to " + std::filesystem::temp_directory_path().string() + ".");
     }
-    this->Folder = pattern;
   }
-  ~ScratchFolder()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(this->Folder, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
 
-  std::string Scene() const { return (this->Folder / "scene.json").string(); }
+  std::string Scene() const { return (this->Folder.Path() / "scene.json").string(); }
 
 private:
-  std::filesystem::path Folder;
+  WorkFolder Folder;
 };
 
 // Whether any of the model's photographs is there.

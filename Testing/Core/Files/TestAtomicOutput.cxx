@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Common/AtomicOutput.h"
+#include "Files/AtomicOutput.h"
 
 #include "Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <iterator>
 #include <string>
 
@@ -136,12 +141,118 @@ TEST(AtomicOutput, AFolderInPlaceOfTheTargetIsAnError)
 {
   const TemporaryFolder folder;
   folder.Write("mesh.ply/inside", "old");
-  {
-    AtomicOutput output(folder.Path("mesh.ply"));
-    output.Write("new", 3);
-    const std::string fault = FaultOfCommit(output);
-    EXPECT_NE(fault.find("mesh.ply: "), std::string::npos) << fault;
-  }
+  EXPECT_THROW(AtomicOutput(folder.Path("mesh.ply")), Error);
   EXPECT_EQ(Content(folder.Path("mesh.ply/inside")), "old");
   EXPECT_EQ(CountEntries(folder.Path()), 1);
+}
+
+TEST(AtomicOutput, ASymbolicLinkIsWrittenThrough)
+{
+  const TemporaryFolder folder;
+  folder.Write("real/old.ply", "old");
+  fs::create_symlink("real/old.ply", folder.Path("link.ply"));
+  fs::create_symlink("real/none.ply", folder.Path("dangling.ply"));
+  for (const char* name : { "link.ply", "dangling.ply" })
+  {
+    AtomicOutput output(folder.Path(name));
+    output.Write("new", 3);
+    output.Commit();
+    EXPECT_TRUE(fs::is_symlink(folder.Path(name)));
+    EXPECT_EQ(Content(folder.Path(name)), "new");
+  }
+  EXPECT_EQ(Content(folder.Path("real/old.ply")), "new");
+  fs::create_symlink("circle.ply", folder.Path("circle.ply"));
+  EXPECT_THROW(AtomicOutput(folder.Path("circle.ply")), Error);
+}
+
+TEST(AtomicOutput, ModeStays)
+{
+  const TemporaryFolder folder;
+  const std::string target = folder.Write("mesh.ply", "old");
+  fs::permissions(target, fs::perms(0640));
+  AtomicOutput output(target);
+  output.Write("new", 3);
+  output.Commit();
+  EXPECT_EQ(fs::status(target).permissions(), fs::perms(0640));
+}
+
+TEST(AtomicOutput, APipeGetsTheBytes)
+{
+  const TemporaryFolder folder;
+  const std::string pipe = folder.Path("mesh.ply");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string got;
+  std::thread reader([&] { got = Content(pipe); });
+  {
+    AtomicOutput output(pipe);
+    output.Write("bytes", 5);
+    output.Commit();
+  }
+  reader.join();
+  EXPECT_EQ(got, "bytes");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(CountEntries(folder.Path()), 1);
+}
+
+TEST(AtomicOutput, DevicesAreNotReplaced)
+{
+  AtomicOutput output("/dev/null");
+  output.Write("bytes", 5);
+  output.Commit();
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicOutput, TemporaryFoldersOfTheDeadAreRemoved)
+{
+  const TemporaryFolder folder;
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    AtomicOutput output(folder.Path("mesh.ply"));
+    output.Write("half", 4);
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(CountEntries(folder.Path()), 1) << "what the child left";
+  folder.Write(".freespace-settings/mine", "kept");
+  {
+    const AtomicOutput output(folder.Path("mesh.ply"));
+    EXPECT_EQ(CountEntries(folder.Path()), 2);
+  }
+  EXPECT_EQ(CountEntries(folder.Path()), 1);
+}
+
+// A commit whose last step fails: the target became a folder meanwhile.
+TEST(AtomicOutput, AFailedCommitLeavesAllAsItWas)
+{
+  const TemporaryFolder folder;
+  folder.Write("maps/maps_0.vtp", "old");
+  folder.Write("maps.mtl", "old");
+  {
+    AtomicOutput output(folder.Path("maps.vtm"));
+    output.Write("index", 5);
+    const fs::path beside = fs::path(output.Path()).parent_path();
+    fs::create_directory(beside / "maps");
+    std::ofstream(beside / "maps/maps_0.vtp") << "new";
+    std::ofstream(beside / "maps/maps_1.vtp") << "new";
+    std::ofstream(beside / "maps.mtl") << "new";
+    folder.Write("maps.vtm/inside", "in the way");
+    EXPECT_NE(FaultOfCommit(output), "");
+  }
+  EXPECT_EQ(Content(folder.Path("maps/maps_0.vtp")), "old");
+  EXPECT_FALSE(fs::exists(folder.Path("maps/maps_1.vtp")));
+  EXPECT_EQ(Content(folder.Path("maps.mtl")), "old");
+  EXPECT_EQ(CountEntries(folder.Path()), 3);
+}
+
+TEST(AtomicOutput, FirstFreePart)
+{
+  const TemporaryFolder folder;
+  const AtomicOutput output(folder.Path("maps.vtm"));
+  EXPECT_EQ(output.FirstFreePart(3), 0);
+  folder.Write("maps/maps_0.vtp", "");
+  folder.Write("maps/maps_1.vtp", "");
+  EXPECT_EQ(output.FirstFreePart(3), 2);
+  fs::remove(folder.Path("maps/maps_0.vtp"));
+  EXPECT_EQ(output.FirstFreePart(1), 0);
 }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Interrupts.h"
+
+#include "Files/WorkFolder.h"
+#include "Session/StderrCapture.h"
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include <time.h>
+#include <unistd.h>
+
+namespace freespace
+{
+
+namespace
+{
+
+std::atomic<int> arrived{ 0 };
+
+// Makes a signal one that is waited for, also where it was ignored, as a shell has it for its background.
+void Nothing(int) {}
+
+[[noreturn]] void EndNow()
+{
+  RemoveWorkFolders();
+  constexpr char sentence[] = "freespace: Stopped on request.\n";
+  if (write(StderrCapture::RealDescriptor(), sentence, sizeof sentence - 1) < 0)
+  {
+    // There is nobody left to tell.
+  }
+  _exit(InterruptStatus());
+}
+
+void Listen(const sigset_t& signals)
+{
+  int signal = 0;
+  if (sigwait(&signals, &signal) != 0)
+  {
+    return;
+  }
+  arrived = signal;
+  const timespec patience = { 0, 300000000 }; // nanoseconds
+  sigtimedwait(&signals, nullptr, &patience);
+  EndNow();
+}
+
+}
+
+void ListenToInterrupts()
+{
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : { SIGINT, SIGTERM })
+  {
+    sigaddset(&signals, signal);
+    std::signal(signal, Nothing);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] { Listen(signals); }).detach();
+}
+
+int Interrupt()
+{
+  return arrived;
+}
+
+int InterruptStatus()
+{
+  return 128 +
+    (arrived != 0 ? arrived.load() : SIGINT); // of another process where there are several
+}
+
+}

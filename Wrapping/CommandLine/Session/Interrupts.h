@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_Interrupts_h
+#define freespace_Interrupts_h
+
+namespace freespace
+{
+
+/// Listens to SIGINT and SIGTERM on a thread of its own from now on; before other threads begin, which
+/// inherit that they do not get these signals. A signal asks the running stage to stop. Where it has not
+/// done so after a third of a second, or at a second signal, the process removes what it has half written
+/// and ends.
+void ListenToInterrupts();
+
+/// The signal that came; 0: none.
+int Interrupt();
+
+/// The exit status of a process that was stopped by it: 130 for SIGINT, 143 for SIGTERM.
+int InterruptStatus();
+
+}
+
+#endif
