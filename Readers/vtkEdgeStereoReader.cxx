@@ -171,6 +171,7 @@ int vtkEdgeStereoReader::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   this->FilesRead.clear();
   this->ClusterSummary.clear();
+  this->ImageSummary.clear();
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   try
   {
@@ -185,6 +186,7 @@ int vtkEdgeStereoReader::RequestData(
       this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
     freespace::Scene& scene = checked.scene;
     this->ClusterSummary = checked.choice;
+    this->ImageSummary = checked.scaled;
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
@@ -233,5 +235,6 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefineCameras: " << this->RefineCameras << "\n";
   os << indent << "CheckImages: " << this->CheckImages << "\n";
   os << indent << "ClusterProposal: " << this->ClusterProposal.Get() << "\n";
+  os << indent << "ImageSummary: " << this->ImageSummary << "\n";
   os << indent << "ClusterSummary: " << this->ClusterSummary << "\n";
 }

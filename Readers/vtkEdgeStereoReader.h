@@ -211,6 +211,12 @@ public:
   std::string GetClusterSummary() { return this->ClusterSummary; }
 
   /**
+   * After Update(): in one line, how many photographs have another size than the cameras of the model, which
+   * are scaled then. Empty when none has.
+   */
+  std::string GetImageSummary() { return this->ImageSummary; }
+
+  /**
    * Later than the reader's own time when one of the files that it has read has changed since: the
    * scene's, the camera model's or a photograph.
    */
@@ -244,6 +250,7 @@ private:
 
   vtkSmartPointer<vtkClusterProposal> ClusterProposal;
   std::string ClusterSummary;
+  std::string ImageSummary;
   vtkTimeStamp FilesChanged;
   long long FilesTime = 0;            // of when all of them were written
   std::vector<std::string> FilesRead; // beside the scene's

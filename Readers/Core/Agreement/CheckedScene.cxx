@@ -42,7 +42,7 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
 {
   CheckedScene checked;
   checked.given = scene;
-  checked.model = ReadSceneModel(scene);
+  checked.model = ReadSceneModel(scene, &checked.scaled);
   const std::size_t all = checked.model.images.size();
   const auto misprojected =
     check ? FindMisprojectedImages(checked.model) : std::vector<MisprojectedImage>();

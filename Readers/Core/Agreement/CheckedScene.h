@@ -18,6 +18,7 @@ struct CheckedScene
   Scene scene;        ///< the same, or with proposed clusters
   SparseModel model;  ///< of the right images
   std::string choice; ///< what DescribeChoice says about proposed clusters
+  std::string scaled; ///< what ScaleToPhotographs says
   std::vector<std::string> warnings; ///< a sentence each, which names the images that are left out
 };
 

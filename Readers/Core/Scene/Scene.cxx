@@ -5,6 +5,8 @@
 #include "Common/Error.h"
 #include "Files/NameEncoding.h"
 #include "Text/TextSource.h"
+#include "Scene/ScaledImages.h"
+#include "SparseModel/FindSparseModel.h"
 #include "SparseModel/ReadSparseModel.h"
 
 #include <algorithm>
@@ -301,6 +303,27 @@ OrderedJson JsonFromBoard(const Board& board)
   return json;
 }
 
+// A scene of a model's folder: the photographs are in an `images` beside it or above.
+Scene SceneOfModel(const std::string& path)
+{
+  const fs::path model = fs::absolute(FindSparseModel(path)).lexically_normal();
+  Scene scene;
+  scene.file = path;
+  scene.model = model.string();
+  scene.images = model.string();
+  fs::path above = model / "";
+  for (int level = 0; level < 4 && above.has_parent_path(); ++level)
+  {
+    above = above.parent_path();
+    if (fs::is_directory(above / "images"))
+    {
+      scene.images = (above / "images").string();
+      break;
+    }
+  }
+  return scene;
+}
+
 }
 
 void Board::Check() const
@@ -335,8 +358,18 @@ std::string Scene::ImagePath(const std::string& image) const
   return (fs::path(this->ImagesFolder()) / image).string();
 }
 
-Scene ReadScene(const std::string& file)
+Scene ReadScene(const std::string& path)
 {
+  std::string file = path;
+  if (fs::is_directory(path))
+  {
+    file = (fs::path(path) / "scene.json").string();
+    if (!fs::exists(file) && HasColmapModel(FindSparseModel(path)))
+    {
+      return SceneOfModel(path);
+    }
+    file = fs::exists(file) ? file : path;
+  }
   const Json json = ParseFile(file);
   const Node root(json, file);
   root.ExpectObject({ "images", "model", "clusters", "board" });
@@ -379,9 +412,14 @@ void WriteScene(const Scene& scene, const std::string& file)
   target.Commit();
 }
 
-SparseModel ReadSceneModel(const Scene& scene)
+SparseModel ReadSceneModel(const Scene& scene, std::string* scaled)
 {
   SparseModel model = ReadSparseModel(scene.ModelFolder());
+  const std::string told = ScaleToPhotographs(scene, model);
+  if (scaled)
+  {
+    *scaled = told;
+  }
   std::unordered_set<std::string> known;
   for (const SparseImage& image : model.images)
   {

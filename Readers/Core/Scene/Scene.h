@@ -67,7 +67,8 @@ struct Scene
   std::string ImagePath(const std::string& image) const;
 };
 
-/// Reads a scene.json. Throws Error naming the file and the fault: broken JSON, a missing, unknown
+/// Reads a scene.json, or that of a folder. Of a folder with a model (FindSparseModel) and no scene.json it
+/// makes a scene whose photographs are in the folder `images` beside the model or above it. Throws Error naming the file and the fault: broken JSON, a missing, unknown
 /// or ill-typed key, a triplet without the reference in its middle or with an image twice, two
 /// clusters of one name, a board that makes no sense.
 Scene ReadScene(const std::string& file);
@@ -76,9 +77,10 @@ Scene ReadScene(const std::string& file);
 /// are made relative to the new file. Throws Error when the file cannot be written.
 void WriteScene(const Scene& scene, const std::string& file);
 
-/// Reads the scene's camera model. Throws Error when that fails (see ReadSparseModel) or when a
+/// Reads the scene's camera model, its cameras scaled to the photographs (ScaleToPhotographs, which says
+/// what is put into `scaled`). Throws Error when that fails (see ReadSparseModel) or when a
 /// cluster names an image that the model does not have.
-SparseModel ReadSceneModel(const Scene& scene);
+SparseModel ReadSceneModel(const Scene& scene, std::string* scaled = nullptr);
 
 /// The images of the scene's model. Throws as ReadSceneModel does.
 std::vector<CalibratedImage> ReadSceneImages(const Scene& scene);

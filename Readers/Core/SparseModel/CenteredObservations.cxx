@@ -2,13 +2,12 @@
 #include "SparseModel/CenteredObservations.h"
 
 #include "Common/Error.h"
+#include "Images/ImageSize.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <unordered_set>
-
-#include <opencv2/imgcodecs.hpp>
 
 namespace freespace
 {
@@ -31,14 +30,9 @@ std::array<std::uint64_t, 2> SmallestSize(const std::vector<SparseObservation>& 
 std::array<std::uint64_t, 2> SizeOf(
   const std::filesystem::path& photograph, const std::vector<SparseObservation>& observations)
 {
-  if (std::filesystem::is_regular_file(photograph))
+  if (const auto size = ReadImageSize(photograph.string()))
   {
-    const cv::Mat pixels =
-      cv::imread(photograph.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    if (!pixels.empty())
-    {
-      return { static_cast<std::uint64_t>(pixels.cols), static_cast<std::uint64_t>(pixels.rows) };
-    }
+    return { static_cast<std::uint64_t>((*size)[0]), static_cast<std::uint64_t>((*size)[1]) };
   }
   return SmallestSize(observations);
 }

@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "SparseModel/BundlerModel.h"
 #include "SparseModel/ColmapModel.h"
+#include "SparseModel/FindSparseModel.h"
 #include "SparseModel/NvmModel.h"
 
 #include <filesystem>
@@ -16,15 +17,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
-bool HasColmapModel(const fs::path& folder)
-{
-  return (fs::exists(folder / "cameras.bin") && fs::exists(folder / "images.bin")) ||
-    (fs::exists(folder / "cameras.txt") && fs::exists(folder / "images.txt"));
-}
-
 bool HasBundlerModel(const fs::path& folder)
 {
-  return !HasColmapModel(folder) && fs::is_regular_file(folder / "bundle.out");
+  return !HasColmapModel(folder.string()) && fs::is_regular_file(folder / "bundle.out");
 }
 
 }
@@ -32,7 +27,7 @@ bool HasBundlerModel(const fs::path& folder)
 bool IsSparseModel(const std::string& path)
 {
   const std::string ending = fs::path(path).extension().string();
-  return fs::is_directory(path) ? HasColmapModel(path) || HasBundlerModel(path)
+  return fs::is_directory(path) ? HasColmapModel(FindSparseModel(path)) || HasBundlerModel(path)
                                 : ending == ".nvm" || ending == ".out";
 }
 
@@ -41,7 +36,7 @@ SparseModel ReadSparseModel(const std::string& path)
   if (fs::is_directory(path))
   {
     return HasBundlerModel(path) ? ReadBundlerModel((fs::path(path) / "bundle.out").string())
-                                 : ReadColmapModel(path);
+                                 : ReadColmapModel(FindSparseModel(path));
   }
   if (!fs::exists(path))
   {

@@ -7,7 +7,8 @@
 namespace freespace
 {
 
-/// Reads a structure-from-motion model: a folder as COLMAP's, a file that ends in .nvm as
+/// Reads a structure-from-motion model: a folder as COLMAP's (or the largest
+/// below it, see FindSparseModel), a file that ends in .nvm as
 /// VisualSFM's, one that ends in .out as Bundler's. Throws Error naming the file and the fault.
 SparseModel ReadSparseModel(const std::string& path);
 

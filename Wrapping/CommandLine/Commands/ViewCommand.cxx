@@ -51,9 +51,12 @@ struct Settings
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
-  command.add_option("scene", settings.scene, "The scene whose photographs colour the surface")
+  command
+    .add_option("scene", settings.scene,
+      "The scene whose photographs colour the surface, or a model with a folder images "
+      "beside it or above")
     ->required()
-    ->type_name("SCENE.json");
+    ->type_name("SCENE.json|MODEL");
   command.add_option("--mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("MESH.ply");

@@ -3,6 +3,7 @@
 
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "SparseModel/FindSparseModel.h"
 
 #include <vtkFeatureSupportFilter.h>
 #include <vtkMultiBlockDataSet.h>
@@ -41,6 +42,12 @@ void SparseStage::AddOptions(CLI::App& command)
 vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
   Session& session, const std::string& model) const
 {
+  std::string told;
+  FindSparseModel(model, &told);
+  if (!told.empty())
+  {
+    session.Log("sparse: " + told);
+  }
   vtkNew<vtkSparseModelReader> reader;
   reader->SetFileName(model);
   reader->SetCheckImages(this->WrongImages.AreDropped());

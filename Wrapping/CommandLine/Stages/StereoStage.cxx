@@ -75,6 +75,10 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   this->Choice.Apply(clusters);
   stereo->SetClusterProposal(clusters);
   session.Run(stereo, "stereo");
+  if (!stereo->GetImageSummary().empty())
+  {
+    session.Log("images: " + stereo->GetImageSummary());
+  }
   if (!stereo->GetClusterSummary().empty())
   {
     session.Log("clusters: " + stereo->GetClusterSummary());

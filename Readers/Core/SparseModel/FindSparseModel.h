@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FindSparseModel_h
+#define freespace_FindSparseModel_h
+
+#include <string>
+
+namespace freespace
+{
+
+/// Whether a folder holds COLMAP's cameras and images itself.
+bool HasColmapModel(const std::string& folder);
+
+/// The folder of a model in or below a folder, down to two levels, as in colmap/sparse/0: of several the
+/// one with the most images, as far as the size of its files tells, the first by name of equal ones. The
+/// path itself where there is none, or when it is a file. A folder of a scene.json is none.
+///
+/// told: when it is given, becomes a sentence where the model is not the path itself, or empty.
+std::string FindSparseModel(const std::string& path, std::string* told = nullptr);
+
+}
+
+#endif
