@@ -251,6 +251,13 @@ private:
 
 }
 
+vtkAppendPiecesFilter::vtkAppendPiecesFilter()
+{
+  const freespace::TriangleSelection selection;
+  this->ObservedOnly = selection.observedOnly;
+  this->Crumbs = selection.crumbs;
+}
+
 int vtkAppendPiecesFilter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");

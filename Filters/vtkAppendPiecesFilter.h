@@ -33,30 +33,31 @@ public:
    * Keep only what was seen, like vtkBisectionContourFilter's setting of that name: to be set here, not
    * there, when the result is to be the same as that of the whole. Default off.
    */
-  vtkSetMacro(ObservedOnly, bool);
-  vtkGetMacro(ObservedOnly, bool);
-  vtkBooleanMacro(ObservedOnly, bool);
+  vtkSetMacro(ObservedOnly, vtkTypeBool);
+  vtkGetMacro(ObservedOnly, vtkTypeBool);
+  vtkBooleanMacro(ObservedOnly, vtkTypeBool);
   ///@}
 
   ///@{
   /**
    * Keep connected components that no feature supports, like vtkBisectionContourFilter's setting of that name,
-   * which leaves them to this filter where it makes pieces. Default on.
+   * which leaves them to this filter where it makes pieces. Default off.
    */
-  vtkSetMacro(Crumbs, bool);
-  vtkGetMacro(Crumbs, bool);
-  vtkBooleanMacro(Crumbs, bool);
+  vtkSetMacro(Crumbs, vtkTypeBool);
+  vtkGetMacro(Crumbs, vtkTypeBool);
+  vtkBooleanMacro(Crumbs, vtkTypeBool);
   ///@}
 
 protected:
-  vtkAppendPiecesFilter() = default;
+  vtkAppendPiecesFilter();
   ~vtkAppendPiecesFilter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  bool ObservedOnly = false;
-  bool Crumbs = true;
+  // Defaults are those of freespace::TriangleSelection.
+  vtkTypeBool ObservedOnly;
+  vtkTypeBool Crumbs;
 
 private:
   vtkAppendPiecesFilter(const vtkAppendPiecesFilter&) = delete;

@@ -194,6 +194,17 @@ void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, d
 vtkBisectionContourFilter::vtkBisectionContourFilter()
 {
   this->SetNumberOfInputPorts(0);
+  this->SetCellsToAutomatic();
+  const freespace::ContourOptions contour;
+  this->Tolerance = contour.tolerance;
+  this->Clearance = contour.clearance;
+  this->ExactCrossings = contour.exact;
+  this->SharpEdges = contour.sharp;
+  this->SharpAngle = contour.sharpAngle;
+  this->MemoryLimit = contour.memoryLimit;
+  const freespace::TriangleSelection selection;
+  this->Crumbs = selection.crumbs;
+  this->ObservedOnly = selection.observedOnly;
 }
 
 vtkBisectionContourFilter::~vtkBisectionContourFilter() = default;
@@ -252,8 +263,8 @@ bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& p
   task.options.cells = this->Cells;
   task.options.tolerance = this->Tolerance;
   task.options.clearance = this->Clearance;
-  task.options.exact = this->ExactCrossings;
-  task.options.sharp = this->SharpEdges;
+  task.options.exact = this->ExactCrossings != 0;
+  task.options.sharp = this->SharpEdges != 0;
   task.options.sharpAngle = this->SharpAngle;
   task.options.memoryLimit = this->MemoryLimit;
   task.bounds = MakeBox(this->Bounds);

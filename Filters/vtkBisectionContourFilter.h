@@ -78,7 +78,7 @@ public:
   /**
    * How many cells the lattice has along the longest side of the bounds. Automatic, or -1, takes the cells
    * that a vtkFreespaceUnion suggests, or fewer where MemoryLimit asks for it, and 256 for other
-   * functions. Default 256.
+   * functions. Default automatic.
    */
   vtkSetMacro(Cells, int);
   vtkGetMacro(Cells, int);
@@ -107,21 +107,21 @@ public:
    * Take crossings exactly where the function knows them, as a vtkFreespaceUnion with MinimumViews 1
    * does: faster than bisection, and without its tolerance. Default on.
    */
-  vtkSetMacro(ExactCrossings, bool);
-  vtkGetMacro(ExactCrossings, bool);
-  vtkBooleanMacro(ExactCrossings, bool);
+  vtkSetMacro(ExactCrossings, vtkTypeBool);
+  vtkGetMacro(ExactCrossings, vtkTypeBool);
+  vtkBooleanMacro(ExactCrossings, vtkTypeBool);
   ///@}
 
   ///@{
   /**
    * Rebuild sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
    * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The
-   * surface stays closed, 2-manifold and free of self-intersection. Default off, 60 degrees: features with noise tilt small triangles
-   * by tens of degrees.
+   * surface stays closed, 2-manifold and free of self-intersection. Defaults on and 60 degrees: the noise of
+   * features tilts small triangles by tens of degrees. Off is the paper.
    */
-  vtkSetMacro(SharpEdges, bool);
-  vtkGetMacro(SharpEdges, bool);
-  vtkBooleanMacro(SharpEdges, bool);
+  vtkSetMacro(SharpEdges, vtkTypeBool);
+  vtkGetMacro(SharpEdges, vtkTypeBool);
+  vtkBooleanMacro(SharpEdges, vtkTypeBool);
   vtkSetMacro(SharpAngle, double);
   vtkGetMacro(SharpAngle, double);
   ///@}
@@ -130,11 +130,11 @@ public:
   /**
    * Keep crumbs: connected components of the surface that no feature supports. Else they are left out of a
    * surface that is made whole, and by vtkAppendPiecesFilter of one that is joined from pieces; the
-   * largest component always stays. For a vtkFreespaceUnion only. Default on.
+   * largest component always stays. For a vtkFreespaceUnion only. Default off.
    */
-  vtkSetMacro(Crumbs, bool);
-  vtkGetMacro(Crumbs, bool);
-  vtkBooleanMacro(Crumbs, bool);
+  vtkSetMacro(Crumbs, vtkTypeBool);
+  vtkGetMacro(Crumbs, vtkTypeBool);
+  vtkBooleanMacro(Crumbs, vtkTypeBool);
   ///@}
 
   ///@{
@@ -143,9 +143,9 @@ public:
    * an open surface without the hull and the walls, among them the "extra" elements of the paper's figure
    * 11. For a vtkFreespaceUnion only. Default off.
    */
-  vtkSetMacro(ObservedOnly, bool);
-  vtkGetMacro(ObservedOnly, bool);
-  vtkBooleanMacro(ObservedOnly, bool);
+  vtkSetMacro(ObservedOnly, vtkTypeBool);
+  vtkGetMacro(ObservedOnly, vtkTypeBool);
+  vtkBooleanMacro(ObservedOnly, vtkTypeBool);
   ///@}
 
   ///@{
@@ -183,15 +183,16 @@ protected:
 
   vtkSmartPointer<vtkImplicitFunction> ImplicitFunction;
   double Bounds[6] = { 1, -1, 1, -1, 1, -1 };
-  int Cells = 256;
-  double Tolerance = 1e-3;
-  double Clearance = 0.01;
-  bool ExactCrossings = true;
-  bool SharpEdges = false;
-  double SharpAngle = 60.0;
-  bool Crumbs = true;
-  bool ObservedOnly = false;
-  double MemoryLimit = 0.0;
+  int Cells;
+  // Defaults are those of freespace::ContourOptions and freespace::TriangleSelection.
+  double Tolerance;
+  double Clearance;
+  vtkTypeBool ExactCrossings;
+  vtkTypeBool SharpEdges;
+  double SharpAngle;
+  vtkTypeBool Crumbs;
+  vtkTypeBool ObservedOnly;
+  double MemoryLimit;
 
 private:
   struct Task;

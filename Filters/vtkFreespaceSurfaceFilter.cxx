@@ -88,11 +88,7 @@ constexpr double ShareOfContour = 0.5; // of the time, where the surface is fitt
 
 vtkFreespaceSurfaceFilter::vtkFreespaceSurfaceFilter()
 {
-  this->FreespaceUnion->SetMinimumViewsToAutomatic();
   this->Contour->SetImplicitFunction(this->FreespaceUnion);
-  this->Contour->SetCellsToAutomatic();
-  this->Contour->SharpEdgesOn();
-  this->Contour->CrumbsOff();
   this->InnerTime = this->TimeOfSettings();
 }
 

@@ -53,9 +53,9 @@ public:
    * Whether the surface's vertices move to where all features together say that it is. Off is the paper.
    * Default on.
    */
-  vtkSetMacro(FitSurface, bool);
-  vtkGetMacro(FitSurface, bool);
-  vtkBooleanMacro(FitSurface, bool);
+  vtkSetMacro(FitSurface, vtkTypeBool);
+  vtkGetMacro(FitSurface, vtkTypeBool);
+  vtkBooleanMacro(FitSurface, vtkTypeBool);
   ///@}
 
   ///@{
@@ -108,7 +108,7 @@ private:
 
   vtkNew<vtkBisectionContourFilter> Contour;
   vtkNew<vtkFitSurfaceFilter> Fit;
-  bool FitSurface = true;
+  vtkTypeBool FitSurface = true;
   double HullMargin = -1.0;
   vtkMTimeType InnerTime = 0; ///< of the classes' settings, without the data that come and go
 };

@@ -150,6 +150,9 @@ bool AskAll(vtkFreespaceUnion* phi, const freespace::Progress& progress, MakeInd
 vtkFreespaceUnion::vtkFreespaceUnion()
   : Inner(new Internals)
 {
+  const freespace::FreespaceUnionOptions options;
+  this->MinimumViews = options.minimumViews;
+  this->HullMargin = options.hullMargin;
 }
 
 vtkFreespaceUnion::~vtkFreespaceUnion() = default;

@@ -85,7 +85,7 @@ public:
   /**
    * So many views must agree that a point is free. 1 is the paper. More than there are views is an error.
    * Automatic, or -1, is 1 or 2, by how often the views contradict each other at features; FindMinimumViews
-   * tells which, after an Update. Default 1.
+   * tells which, after an Update. Default automatic.
    */
   vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);
@@ -97,7 +97,7 @@ public:
   /**
    * By how much the hull is pushed out, as a fraction of the diagonal of the bounding box of the features
    * in the region. 0 is the paper, 10 and more an error. Automatic, or -1, is somewhat more than a cell
-   * of the lattice that GetSuggestedCells tells. Default 0.01.
+   * of the lattice that GetSuggestedCells tells. Default automatic.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);
@@ -225,8 +225,9 @@ protected:
   vtkFreespaceUnion();
   ~vtkFreespaceUnion() override;
 
-  int MinimumViews = 1;
-  double HullMargin = 0.01;
+  // Defaults are those of freespace::FreespaceUnionOptions.
+  int MinimumViews;
+  double HullMargin;
   int RegionMode = AUTOMATIC_REGION;
   double Region[6] = { 1, -1, 1, -1, 1, -1 };
   vtkTypeBool AbortExecute = 0;

@@ -61,9 +61,9 @@ public:
   /**
    * Whether a picture without a view is taken from the surface's own viewpoint, where it has one. Default on.
    */
-  vtkSetMacro(UseViewpoint, bool);
-  vtkGetMacro(UseViewpoint, bool);
-  vtkBooleanMacro(UseViewpoint, bool);
+  vtkSetMacro(UseViewpoint, vtkTypeBool);
+  vtkGetMacro(UseViewpoint, vtkTypeBool);
+  vtkBooleanMacro(UseViewpoint, vtkTypeBool);
   ///@}
 
   ///@{
@@ -119,7 +119,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int Size[2] = { 1280, 960 };
-  bool UseViewpoint = true;
+  vtkTypeBool UseViewpoint = true;
   double Azimuth = -123.0;
   double Elevation = 33.0;
   int Samples = 2;

@@ -168,7 +168,7 @@ int vtkTextureBaker::RequestData(
     }
     SurfaceColorOptions look;
     look.sharpness = this->Sharpness;
-    look.level = this->Leveling;
+    look.level = this->Leveling != 0;
     look.visibility.feather = this->Feather;
     const SurfaceColor color(local, std::move(photographs), look, SMPParallelFor);
     progress(0.2);

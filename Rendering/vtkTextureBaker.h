@@ -77,9 +77,9 @@ public:
   /**
    * Whether differences of exposure between photographs are evened out. Default on.
    */
-  vtkSetMacro(Leveling, bool);
-  vtkGetMacro(Leveling, bool);
-  vtkBooleanMacro(Leveling, bool);
+  vtkSetMacro(Leveling, vtkTypeBool);
+  vtkGetMacro(Leveling, vtkTypeBool);
+  vtkBooleanMacro(Leveling, vtkTypeBool);
   ///@}
 
   ///@{
@@ -120,7 +120,7 @@ protected:
   double TexelSize = 0.0;
   int LargestTexture = 8192;
   double Sharpness = 4.0;
-  bool Leveling = true;
+  vtkTypeBool Leveling = true;
   double Feather = 12.0;
   double UnseenColor[3] = { 0.7, 0.7, 0.7 };
   int NumberOfCharts = 0;

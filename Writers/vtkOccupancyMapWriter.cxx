@@ -247,6 +247,13 @@ constexpr double Built = 0.3, Rendered = 0.35, Indexed = 0.4, Filled = 0.8, Prun
 
 }
 
+vtkOccupancyMapWriter::vtkOccupancyMapWriter()
+{
+  const freespace::FreespaceUnionOptions options;
+  this->HullMargin = options.hullMargin;
+  this->MinimumViews = options.minimumViews;
+}
+
 int vtkOccupancyMapWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
@@ -264,6 +271,10 @@ void vtkOccupancyMapWriter::WriteData()
         throw Error(
           "Cannot write '" + this->FileName + "': an OctoMap's file name ends in .bt or .ot.");
       }
+      freespace::FreespaceUnionOptions options;
+      options.hullMargin = this->HullMargin;
+      options.minimumViews = this->MinimumViews;
+      options.Check();
       AtomicOutput target(this->FileName);
       auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
       const freespace::Progress progress = AlgorithmProgress(this);

@@ -49,11 +49,11 @@ public:
 
   ///@{
   /**
-   * As in vtkFreespaceUnion. Defaults 0.01 and 1.
+   * As in vtkFreespaceUnion, with its defaults. What is out of range is an error that WriteData reports.
    */
-  vtkSetClampMacro(HullMargin, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);
-  vtkSetClampMacro(MinimumViews, int, 1, VTK_INT_MAX);
+  vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);
   ///@}
 
@@ -70,7 +70,7 @@ public:
   ///@}
 
 protected:
-  vtkOccupancyMapWriter() = default;
+  vtkOccupancyMapWriter();
   ~vtkOccupancyMapWriter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
@@ -78,8 +78,9 @@ protected:
 
   std::string FileName;
   double Resolution = 0.0;
-  double HullMargin = 0.01;
-  int MinimumViews = 1;
+  // Defaults are those of freespace::FreespaceUnionOptions.
+  double HullMargin;
+  int MinimumViews;
   int RegionMode = 0;
   double Region[6] = { 1, -1, 1, -1, 1, -1 };
 

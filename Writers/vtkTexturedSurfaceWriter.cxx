@@ -133,7 +133,7 @@ void vtkTexturedSurfaceWriter::WriteData()
       freespace::AtomicOutput target(this->FileName);
       if (ending == ".glb")
       {
-        freespace::WriteBinaryGLTF(surface, texture, this->ZUp, target);
+        freespace::WriteBinaryGLTF(surface, texture, this->ZUp != 0, target);
       }
       else if (ending == ".obj")
       {

@@ -42,9 +42,9 @@ public:
   /**
    * Whether z is up in the scene, which a GLB then turns. Default on.
    */
-  vtkSetMacro(ZUp, bool);
-  vtkGetMacro(ZUp, bool);
-  vtkBooleanMacro(ZUp, bool);
+  vtkSetMacro(ZUp, vtkTypeBool);
+  vtkGetMacro(ZUp, vtkTypeBool);
+  vtkBooleanMacro(ZUp, vtkTypeBool);
   ///@}
 
   /**
@@ -60,7 +60,7 @@ protected:
   void WriteData() override;
 
   std::string FileName;
-  bool ZUp = true;
+  vtkTypeBool ZUp = true;
 
 private:
   vtkTexturedSurfaceWriter(const vtkTexturedSurfaceWriter&) = delete;

@@ -9,6 +9,13 @@ class vtkPolyData;
 namespace freespace
 {
 
+/// Which triangles of a contour are kept.
+struct TriangleSelection
+{
+  bool observedOnly = false; ///< only those that KeepObserved keeps
+  bool crumbs = false;       ///< also the components that DropCrumbs drops
+};
+
 /// The name of the cell array that tells, by 1, which triangles of a contour have a feature beside them.
 extern VTKFREESPACEFILTERS_EXPORT const char* const SupportedName;
 

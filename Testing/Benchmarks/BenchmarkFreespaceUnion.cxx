@@ -11,6 +11,7 @@
 #include "Disparity/DelaunayDisparity.h"
 #include "Freespace/FreespaceUnion.h"
 #include "Support/SharedData.h"
+#include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkFreespaceUnion.h"
@@ -49,6 +50,7 @@ struct Scene
   std::vector<View> views;
   std::vector<DisparityMap> maps;
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
 };
 
 const Scene& Blocks()
@@ -122,6 +124,7 @@ double PeakMegabytes(const std::function<void()>& work)
 void Contour(int cells)
 {
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(Blocks().phi);
   contour->SetCells(cells);
   contour->Update();
@@ -337,6 +340,7 @@ void ContourAbort(benchmark::State& state)
     for (double when = 0.02; when < 1; when += 0.08)
     {
       vtkNew<vtkBisectionContourFilter> contour;
+      SetPlainContour(contour.Get());
       contour->SetImplicitFunction(Blocks().phi);
       contour->SetCells(1024);
       std::chrono::steady_clock::time_point asked;
@@ -398,8 +402,10 @@ void FeaturesToMesh(benchmark::State& state)
     maps->SetInputConnection(features->GetOutputPort());
     triangulate += Seconds([&] { maps->Update(); });
     vtkNew<vtkFreespaceUnion> phi;
+    SetPlain(phi.Get());
     phi->SetMaps(maps->GetOutput());
     vtkNew<vtkBisectionContourFilter> surface;
+    SetPlainContour(surface.Get());
     surface->SetImplicitFunction(phi);
     surface->SharpEdgesOn();
     contour += Seconds([&] { surface->Update(); });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/PlainSettings.h"
 #include "vtkAppendPiecesFilter.h"
 
 #include "Support/ErrorObserver.h"
@@ -22,8 +23,10 @@ using namespace freespace;
 TEST(vtkAppendPiecesFilter, PiecesTogetherAreTheWhole)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(100);
   for (const bool observed : { false, true })
@@ -35,6 +38,7 @@ TEST(vtkAppendPiecesFilter, PiecesTogetherAreTheWhole)
     whole->ShallowCopy(contour->GetOutput());
     contour->SetObservedOnly(false);
     vtkNew<vtkAppendPiecesFilter> append;
+    append->CrumbsOn();
     append->SetObservedOnly(observed);
     for (int piece = 0; piece < 3; ++piece)
     {
@@ -70,6 +74,7 @@ TEST(vtkAppendPiecesFilter, TellsWhatIsWrong)
 {
   vtkNew<vtkPolyData> empty;
   vtkNew<vtkAppendPiecesFilter> append;
+  append->CrumbsOn();
   append->AddInputData(empty);
   append->Update();
   EXPECT_EQ(append->GetOutput()->GetNumberOfPoints(), 0);

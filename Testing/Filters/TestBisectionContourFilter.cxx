@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
 
 #include "Support/ErrorObserver.h"
@@ -26,8 +27,10 @@ using namespace freespace;
 TEST(vtkBisectionContourFilter, ContoursAUnion)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(40);
   contour->Update();
@@ -68,8 +71,10 @@ TEST(vtkBisectionContourFilter, ContoursAUnion)
 TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(40);
   contour->Update();
@@ -108,6 +113,7 @@ TEST(vtkBisectionContourFilter, StopsAtOnce)
   };
   vtkNew<CountingSphere> sphere;
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(sphere);
   contour->SetBounds(-1, 1, -1, 1, -1, 1);
   contour->SetCells(100);
@@ -136,8 +142,10 @@ TEST(vtkBisectionContourFilter, StopsAtOnce)
 TEST(vtkBisectionContourFilter, ProgressesSmoothly)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(300);
   contour->SharpEdgesOn();
@@ -155,8 +163,10 @@ TEST(vtkBisectionContourFilter, StopsWhileTheUnionIsBuilt)
   for (int at = 1; at <= 4; ++at)
   {
     vtkNew<vtkFreespaceUnion> phi;
+    SetPlain(phi.Get());
     phi->SetMaps(maps);
     vtkNew<vtkBisectionContourFilter> contour;
+    SetPlainContour(contour.Get());
     contour->SetImplicitFunction(phi);
     contour->SetCells(20);
     vtkNew<ErrorObserver> errors;
@@ -187,6 +197,7 @@ TEST(vtkBisectionContourFilter, ContoursAnyFunction)
   vtkNew<vtkSphere> sphere;
   sphere->SetRadius(2);
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(sphere);
   contour->SetBounds(-3, 3, -3, 3, -3, 3);
   contour->SetCells(30);
@@ -207,6 +218,7 @@ TEST(vtkBisectionContourFilter, ContoursAnyFunction)
 TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   double b[6];
   phi->GetBounds(b);
@@ -214,6 +226,7 @@ TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
   transform->Translate(-5, 0, 0); // maps the world to the function
   phi->SetTransform(transform);
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(30);
   contour->SetBounds(b[0] + 5, b[1] + 5, b[2], b[3], b[4], b[5]);
@@ -225,6 +238,7 @@ TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
 TEST(vtkBisectionContourFilter, TellsWhatIsWrong)
 {
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   vtkNew<ErrorObserver> errors;
   errors->Observe(contour);
   contour->Update();
@@ -246,8 +260,10 @@ TEST(vtkBisectionContourFilter, RefusesFeaturesWithoutTriangles)
 {
   const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(maps);
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(20);
   vtkNew<ErrorObserver> errors;
@@ -268,9 +284,11 @@ TEST(vtkBisectionContourFilter, RefusesFeaturesWithoutTriangles)
 TEST(vtkBisectionContourFilter, RefusesMoreViewsThanThereAre)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 2));
   phi->SetMinimumViews(3);
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   vtkNew<ErrorObserver> errors, ignored;
   phi->AddObserver(vtkCommand::ErrorEvent, errors);

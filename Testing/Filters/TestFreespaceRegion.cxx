@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/ObservedTriangles.h"
 #include "Data/ViewBlocks.h"
+#include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFreespaceUnion.h"
 
@@ -91,6 +92,8 @@ double Longest(vtkFreespaceUnion* phi)
 TEST(FreespaceRegion, IsNotStretchedByAFewFarFeatures)
 {
   vtkNew<vtkFreespaceUnion> phi, near;
+  SetPlain(phi.Get());
+  SetPlain(near.Get());
   phi->SetMaps(TwoViews(true));
   near->SetMaps(TwoViews(false));
   double found[6], expected[6];
@@ -108,6 +111,7 @@ TEST(FreespaceRegion, IsNotStretchedByAFewFarFeatures)
 TEST(FreespaceRegion, CanBeTheWholeOrABox)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(TwoViews(true));
   phi->SetRegionModeToWhole();
   EXPECT_GT(Longest(phi), 900);
@@ -139,6 +143,7 @@ TEST(FreespaceRegion, FeaturesBeyondItStillCarve)
   SetNamedBlock(maps, 0, wall.name, BlockFromMap(wall));
   SetNamedBlock(maps, 1, far.name, BlockFromMap(far));
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(maps);
   const double inWall[3] = { 0, 0, 9.9 };
   EXPECT_TRUE(phi->IsPointFree(inWall));
@@ -149,6 +154,7 @@ TEST(FreespaceRegion, FeaturesBeyondItStillCarve)
 TEST(FreespaceRegion, ThatHoldsNothingIsAnError)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(TwoViews(false));
   phi->SetRegion(100, 101, 0, 1, 0, 1);
   int errors = 0;
@@ -162,8 +168,10 @@ TEST(FreespaceRegion, ThatHoldsNothingIsAnError)
 TEST(FreespaceRegion, TheLatticeGoesByTheFeatures)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(TwoViews(true));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCellsToAutomatic();
   EXPECT_EQ(contour->FindCells(), phi->GetSuggestedCells());
@@ -176,6 +184,7 @@ TEST(FreespaceRegion, TheLatticeGoesByTheFeatures)
   EXPECT_GT(contour->GetOutput()->GetNumberOfPolys(), 0) << "it fits into the limit";
   vtkNew<vtkSphere> sphere;
   vtkNew<vtkBisectionContourFilter> other;
+  SetPlainContour(other.Get());
   other->SetImplicitFunction(sphere);
   other->SetBounds(-1, 1, -1, 1, -1, 1);
   other->SetCellsToAutomatic();

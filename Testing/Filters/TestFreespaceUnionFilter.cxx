@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/PlainSettings.h"
 #include "vtkFreespaceUnion.h"
 
 #include "Support/ErrorObserver.h"
@@ -63,6 +64,7 @@ std::array<int, 4> CountTrianglesByFreeCorners(vtkPolyData* surface, vtkFreespac
 TEST(vtkFreespaceUnion, ServesSampleFunctionCutterAndClipper)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   double bounds[6];
   phi->GetBounds(bounds);
@@ -107,6 +109,7 @@ TEST(vtkFreespaceUnion, ServesSampleFunctionCutterAndClipper)
 TEST(vtkFreespaceUnion, FollowsItsMaps)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(maps);
@@ -135,6 +138,7 @@ TEST(vtkFreespaceUnion, FollowsItsMaps)
 TEST(vtkFreespaceUnion, BatchesAgreeWithSingleQueries)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkPoints> first, last;
   vtkNew<vtkDoubleArray> radii, fractions;
@@ -184,6 +188,7 @@ TEST(vtkFreespaceUnion, BatchesAgreeWithSingleQueries)
 TEST(vtkFreespaceUnion, BuildingIsWatched)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 40));
   std::vector<double> seen;
   vtkNew<vtkCallbackCommand> see;
@@ -209,6 +214,7 @@ TEST(vtkFreespaceUnion, BuildingStopsAtOnce)
   for (int at = 1; at <= 4; ++at)
   {
     vtkNew<vtkFreespaceUnion> phi;
+    SetPlain(phi.Get());
     vtkNew<ErrorObserver> errors;
     phi->SetMaps(maps);
     phi->AddObserver(vtkCommand::ErrorEvent, errors);
@@ -227,6 +233,7 @@ TEST(vtkFreespaceUnion, BuildingStopsAtOnce)
 TEST(vtkFreespaceUnion, ObserversMayAskWhileItIsBuilt)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 2));
   vtkNew<vtkCallbackCommand> ask;
   ask->SetCallback(
@@ -258,6 +265,7 @@ TEST(vtkFreespaceUnion, BatchesStopAtOnceAndLeaveNoResults)
     for (int kind = 0; kind < 3; ++kind)
     {
       vtkNew<vtkFreespaceUnion> phi;
+      SetPlain(phi.Get());
       phi->SetMaps(maps);
       vtkNew<vtkUnsignedCharArray> free;
       vtkNew<vtkDoubleArray> fractions;
@@ -307,8 +315,10 @@ TEST(vtkFreespaceUnion, PassesTheWishToStopOnToItsPipeline)
   };
   vtkNew<SlowSource> source;
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetInputConnection(source->GetOutputPort());
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(20);
   {
@@ -329,6 +339,7 @@ TEST(vtkFreespaceUnion, PassesTheWishToStopOnToItsPipeline)
 TEST(vtkFreespaceUnion, TellsWhatIsWrong)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   vtkNew<ErrorObserver> errors;
   phi->AddObserver(vtkCommand::ErrorEvent, errors);
   double x[3] = { 0, 0, 0 };

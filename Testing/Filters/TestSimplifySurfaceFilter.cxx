@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/PlainSettings.h"
 #include "vtkSimplifySurfaceFilter.h"
 
 #include "Support/ErrorObserver.h"
@@ -20,8 +21,10 @@ using namespace freespace;
 TEST(vtkSimplifySurfaceFilter, LeavesOutTrianglesAndKeepsLabels)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(MakeMaps(3, 3));
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->SetCells(40);
   vtkNew<vtkSimplifySurfaceFilter> simplify;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A flight over a landscape: many views, each of which sees a small part. The environment variable
 // FREESPACE_LARGE_VIEWS sets their number; a thousand make ten million observations.
+#include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkFreespaceUnion.h"
@@ -146,6 +147,7 @@ TEST(LargeModel, WithinEightGigabytesForTenMillionObservations)
   ASSERT_EQ(static_cast<int>(maps->GetOutput()->GetNumberOfBlocks()), NumberOfViews());
   log("triangulated");
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   phi->SetMaps(maps->GetOutput());
   phi->Update();
   log("united");
@@ -160,6 +162,7 @@ TEST(LargeModel, WithinEightGigabytesForTenMillionObservations)
   }
   EXPECT_LE(outside, 10);
   vtkNew<vtkBisectionContourFilter> contour;
+  SetPlainContour(contour.Get());
   contour->SetImplicitFunction(phi);
   contour->Update();
   EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 10000);

@@ -56,11 +56,12 @@ inline Eigen::AlignedBox3d Cube(double half)
   return Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-half), Eigen::Vector3d::Constant(half));
 }
 
-/// Default options but for the number of cells.
+/// Default options but for the number of cells, without sharp edges.
 inline ContourOptions Cells(int cells)
 {
   ContourOptions options;
   options.cells = cells;
+  options.sharp = false;
   return options;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/PlainSettings.h"
 #include "vtkOccupancyMapWriter.h"
 
 #include "Data/ViewBlocks.h"
@@ -56,6 +57,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> Maps()
 int Write(const std::string& fileName, vtkMultiBlockDataSet* maps, double resolution = 0.02)
 {
   vtkNew<vtkOccupancyMapWriter> writer;
+  SetPlain(writer.Get());
   writer->SetInputDataObject(maps);
   writer->SetFileName(fileName);
   writer->SetResolution(resolution);
@@ -72,6 +74,7 @@ std::string TemporaryFolder()
 void ExpectAgreement(const octomap::OcTree& tree)
 {
   vtkNew<vtkFreespaceUnion> phi;
+  SetPlain(phi.Get());
   auto maps = Maps();
   phi->SetMaps(maps);
   phi->SetHullMargin(0.2);
@@ -175,6 +178,7 @@ TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
     for (const double stopAt : { 2.0, 0.0, 0.1, 0.3, 0.41, 0.6, 0.8, 0.9, 0.91 })
     {
       vtkNew<vtkOccupancyMapWriter> writer;
+      SetPlain(writer.Get());
       writer->SetInputDataObject(Maps());
       writer->SetFileName(folder + "/map" + ending);
       writer->SetResolution(0.02);

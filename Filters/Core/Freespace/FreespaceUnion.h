@@ -19,23 +19,28 @@ namespace freespace
 /// How the free spaces of the views are united.
 struct FreespaceUnionOptions
 {
-  int minimumViews = 1; ///< number of views in whose free space a point must lie to be free; >= 1,
-                        ///< at most the number of views; the paper's is 1; or AutomaticViews: 1 or
-                        ///< 2, by how often the views contradict each other at features
-  double hullMargin = 0.01; ///< offset of the hull's planes to the outside, as a fraction of the
-                            ///< diagonal of the region's box; >= 0, < 10; the paper's is 0; or
-                            ///< AutomaticMargin: hullMarginCells counts
-  double hullMarginCells =
-    1.25;                       ///< the same in cells of the suggested lattice; >= 0. Matter on the
-                                ///< hull, such as a floor, must be thick enough for the lattice
-  RegionOptions region;         ///< the hull is that of the features in this region
-  ResolutionOptions resolution; ///< of the suggested lattice
-  double surroundings =
-    0.5; ///< around each camera inside the hull all is free so far, as a share of
-         ///< the distance to the nearest features; in [0, 1); 0: nothing
-
   static constexpr double AutomaticMargin = -1;
   static constexpr int AutomaticViews = -1;
+
+  /// Number of views in whose free space a point must lie to be free; >= 1, at most the number of
+  /// views; 1 in the paper. AutomaticViews: 1 or 2, by how often views contradict each other at
+  /// features.
+  int minimumViews = AutomaticViews;
+
+  /// Offset of the hull's planes to the outside, as a fraction of the diagonal of the region's box;
+  /// >= 0, < 10; 0 in the paper. AutomaticMargin: hullMarginCells applies.
+  double hullMargin = AutomaticMargin;
+
+  /// The same in cells of the suggested lattice; >= 0. Matter on the hull, such as a floor, must be
+  /// thick enough for the lattice.
+  double hullMarginCells = 1.25;
+
+  RegionOptions region;         ///< the hull is that of the features in this region
+  ResolutionOptions resolution; ///< of the suggested lattice
+
+  /// The ball around each camera inside the hull that is free, as a fraction of the distance to the
+  /// nearest features; in [0, 1); 0: none.
+  double surroundings = 0.5;
 
   /// Throws Error when a field is out of its range.
   void Check() const;

@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Contour/Lattice/ContourBlock.h"
 #include "Freespace/FreespaceUnion.h"
+#include "Support/PlainSettings.h"
 #include "Support/ContourFields.h"
 #include "Support/MeshTopology.h"
 #include "Support/RandomMaps.h"
@@ -73,7 +74,7 @@ TEST(BisectionContour, UnionByBoxesIsTheSameAsByPoints)
   };
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    FreespaceUnionOptions unionOptions;
+    auto unionOptions = Plain(FreespaceUnionOptions());
     unionOptions.minimumViews = seed % 5 > 0 ? 1 + seed % 2 : 1; // not more than there are
     const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 5), unionOptions);
     ContourOptions options = Cells(30 + seed);
@@ -98,7 +99,7 @@ TEST(BisectionContour, ExactCrossingsAreWhereBisectionFindsThem)
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
     // Also where two or three views have to agree.
-    FreespaceUnionOptions unionOptions;
+    auto unionOptions = Plain(FreespaceUnionOptions());
     const int views = 1 + seed % 5;
     unionOptions.minimumViews = seed < 10 ? 1 : std::min(views, 2 + static_cast<int>(seed % 2));
     const FreespaceUnion phi(RandomMaps(seed, views), unionOptions);

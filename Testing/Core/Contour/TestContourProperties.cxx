@@ -6,6 +6,7 @@
 
 #include "Contour/Lattice/ContourBlock.h"
 #include "Freespace/FreespaceUnion.h"
+#include "Support/PlainSettings.h"
 #include "Support/MeshTopology.h"
 #include "Support/RandomMaps.h"
 
@@ -109,13 +110,14 @@ class RandomUnion : public testing::TestWithParam<unsigned int>
 TEST_P(RandomUnion, ContourKeepsItsPromises)
 {
   const unsigned int seed = GetParam();
-  FreespaceUnionOptions unionOptions;
+  auto unionOptions = Plain(FreespaceUnionOptions());
   unionOptions.minimumViews = 1 + seed % 3 / 2;
   // A margin of some cells, or none: then there is matter of all thicknesses down to nothing.
   unionOptions.hullMargin = seed % 7 == 0 ? 0.0 : 0.05;
   const FreespaceUnion phi(RandomMaps(1000 + seed, 1 + seed % 6), unionOptions);
   ContourOptions options;
   options.cells = 36;
+  options.sharp = false;
   options.exact = seed % 2 == 0;
   const ContourMesh mesh = BisectionContour(phi, phi.Hull().Bounds(), options);
   ASSERT_GT(mesh.triangles.size(), 100u);
@@ -164,6 +166,7 @@ TEST(ContourOfNoise, NeverMeetsItself)
   {
     ContourOptions options;
     options.cells = cells;
+    options.sharp = false;
     const ContourMesh mesh = BisectionContour(Noise(), bounds, options);
     ASSERT_GT(mesh.triangles.size(), 10000u);
     EXPECT_EQ(TopologyFaults(mesh), "");

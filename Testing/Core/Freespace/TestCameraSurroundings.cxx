@@ -3,6 +3,7 @@
 #include "Freespace/CameraSurroundings.h"
 #include "Freespace/FreespaceUnion.h"
 
+#include "Support/PlainSettings.h"
 #include <gtest/gtest.h>
 
 using namespace freespace;
@@ -35,7 +36,7 @@ DisparityMap BetweenWalls(const Vector3d& center)
 
 FreespaceUnionOptions With(double surroundings)
 {
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.surroundings = surroundings;
   return options;
 }
@@ -74,7 +75,7 @@ TEST(CameraSurroundings, AreAWallOfTheCamerasView)
 TEST(CameraSurroundings, AreFreeHoweverManyViewsMustAgree)
 {
   const std::vector<DisparityMap> maps(3, BetweenWalls({ 0, 0, 0 }));
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = 3;
   EXPECT_TRUE(FreespaceUnion(maps, options).IsFree({ 0, 0, -0.2 }));
 }

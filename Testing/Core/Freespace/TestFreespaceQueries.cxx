@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Freespace/FreespaceQueries.h"
 
+#include "Support/PlainSettings.h"
 #include "Support/RandomMaps.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace
 
 FreespaceUnion MakeUnion(unsigned int seed)
 {
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = 1 + seed % 2;
   return FreespaceUnion(RandomMaps(seed, 2 + seed % 4), options);
 }

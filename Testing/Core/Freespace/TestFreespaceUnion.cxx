@@ -2,6 +2,7 @@
 #include "Freespace/FreespaceUnion.h"
 
 #include "Common/Error.h"
+#include "Support/PlainSettings.h"
 #include "Support/RandomMaps.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +49,7 @@ std::vector<Vector3d> Features(const std::vector<DisparityMap>& maps)
 
 FreespaceUnionOptions Options(int minimumViews, double hullMargin)
 {
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = minimumViews;
   options.hullMargin = hullMargin;
   return options;

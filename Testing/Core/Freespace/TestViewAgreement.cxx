@@ -2,6 +2,7 @@
 #include "Freespace/FreespaceUnion.h"
 #include "Freespace/ViewAgreement.h"
 
+#include "Support/PlainSettings.h"
 #include <gtest/gtest.h>
 
 using namespace freespace;
@@ -42,7 +43,7 @@ int Chosen(const std::vector<double>& shifts)
   {
     maps.push_back(Wall(0.1 * static_cast<double>(i), shifts[i], static_cast<int>(i)));
   }
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = FreespaceUnionOptions::AutomaticViews;
   return FreespaceUnion(maps, options).MinimumViews();
 }
@@ -91,7 +92,7 @@ TEST(ViewAgreement, OfNothingIsOne)
   EXPECT_EQ(ViewsThatMustAgree({}), 1);
   EXPECT_EQ(ViewsThatMustAgree({ { 0.1, 0 }, { 0.05, 0.04 } }), 2);
   EXPECT_EQ(ViewsThatMustAgree({ { 0.1, 0 }, { 0.05, 0.06 } }), 1);
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = FreespaceUnionOptions::AutomaticViews;
   EXPECT_EQ(FreespaceUnion(std::vector<DisparityMap>(), options).MinimumViews(), 1);
 }

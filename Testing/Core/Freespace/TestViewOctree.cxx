@@ -2,6 +2,7 @@
 #include "Freespace/ViewOctree.h"
 
 #include "Freespace/FreespaceUnion.h"
+#include "Support/PlainSettings.h"
 #include "Support/RandomMaps.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace
 
 FreespaceUnion MakeUnion(unsigned int seed, int views, int minimumViews)
 {
-  FreespaceUnionOptions options;
+  auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = minimumViews;
   return FreespaceUnion(RandomMaps(seed, views), options);
 }

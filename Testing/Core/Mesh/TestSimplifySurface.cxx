@@ -31,6 +31,7 @@ ContourMesh ContourOf(const ContourField& field, double half, int cells)
 {
   ContourOptions options;
   options.cells = cells;
+  options.sharp = false;
   return BisectionContour(field, { Vector3d::Constant(-half), Vector3d::Constant(half) }, options);
 }
 

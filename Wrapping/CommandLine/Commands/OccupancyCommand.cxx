@@ -4,7 +4,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
-#include "Stages/RegionOption.h"
+#include "Stages/UnionOptions.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -50,9 +50,7 @@ struct Settings
   std::string maps;
   std::string output;
   double resolution = 0;
-  RegionOption region;
-  double hullMargin = 0.01;
-  int minimumViews = 1;
+  UnionOptions freeSpace;
 };
 
 }
@@ -73,15 +71,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
     ->check(NonNegative())
     ->capture_default_str();
-  settings->region.AddTo(*command);
-  command
-    ->add_option("--hull-margin", settings->hullMargin,
-      "How far the hull of the features is pushed out, as a fraction of their box's diagonal")
-    ->check(NonNegative())
-    ->capture_default_str();
-  command->add_option("--min-views", settings->minimumViews, "So many views make a point free")
-    ->check(CLI::Range(1, 1000000))
-    ->capture_default_str();
+  settings->freeSpace.AddTo(*command);
   command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
   command->callback(session.Defer(
     [settings, &session]()
@@ -91,9 +81,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetInputDataObject(maps);
       writer->SetFileName(settings->output);
       writer->SetResolution(settings->resolution);
-      writer->SetHullMargin(settings->hullMargin);
-      writer->SetMinimumViews(settings->minimumViews);
-      settings->region.SetUp(writer.Get());
+      settings->freeSpace.SetUp(writer.Get());
       session.Watch(writer, "occupancy",
         [&]
         {

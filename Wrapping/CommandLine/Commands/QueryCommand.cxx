@@ -6,7 +6,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
-#include "Stages/RegionOption.h"
+#include "Stages/UnionOptions.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFreespaceUnion.h>
@@ -37,9 +37,7 @@ struct Settings
   std::string maps;
   std::string points;
   std::string segments;
-  RegionOption region;
-  double hullMargin = 0.01;
-  int minimumViews = 1;
+  UnionOptions freeSpace;
 };
 
 // Whether a first row names the columns: it has a letter and does not begin like a number, such as
@@ -181,17 +179,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
         "fraction of it; inf: nowhere")
       ->type_name("FILE.csv");
   points->excludes(segments);
-  settings->region.AddTo(*command);
-  command
-    ->add_option("--hull-margin", settings->hullMargin,
-      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper")
-    ->check(NonNegative())
-    ->capture_default_str();
-  command
-    ->add_option(
-      "--min-views", settings->minimumViews, "Views that must agree that a point is free")
-    ->check(Positive())
-    ->capture_default_str();
+  settings->freeSpace.AddTo(*command);
   command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv\n"
                   "  grep -v '^#' path.xyz | freespace query maps.vtm --points -");
   command->callback(session.Defer(
@@ -203,9 +191,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
       }
       vtkNew<vtkFreespaceUnion> phi;
       phi->SetMaps(ReadMaps(session, settings->maps));
-      phi->SetHullMargin(settings->hullMargin);
-      phi->SetMinimumViews(settings->minimumViews);
-      settings->region.SetUp(phi.Get());
+      settings->freeSpace.SetUp(phi.Get());
       session.Watch(phi, "build", [&] { phi->Update(); });
       settings->points.empty() ? TellSegments(session, phi, settings->segments)
                                : TellPoints(session, phi, settings->points);

@@ -47,7 +47,7 @@ double ShareOfMemory()
 
 void ContourStage::AddOptions(CLI::App& command)
 {
-  this->Region.AddTo(command, "Surface");
+  this->Union.AddTo(command, "Surface");
   command
     .add_option("--cells", this->Cells,
       "Lattice cells along the longest side; auto: as many as show what the features tell, within "
@@ -61,19 +61,6 @@ void ContourStage::AddOptions(CLI::App& command)
       "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters "
       "of what the machine has")
     ->check(NonNegative())
-    ->group("Surface");
-  command
-    .add_option("--hull-margin", this->HullMargin,
-      "How far the hull of the features is pushed out, fraction of its diagonal; 0 is the paper; "
-      "otherwise somewhat more than a lattice cell")
-    ->check(CLI::Range(0.0, 10.0))
-    ->group("Surface");
-  command
-    .add_option("--min-views", this->MinimumViews,
-      "Views that must agree that a point is free; auto: 1, or 2 where they contradict each other")
-    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
-    ->type_name("auto|INT")
-    ->capture_default_str()
     ->group("Surface");
   command
     .add_flag("--no-sharp", this->NotSharp,
@@ -128,14 +115,8 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
-  this->Region.SetUp(phi.Get());
   const int cells = this->Cells == "auto" ? -1 : std::stoi(this->Cells);
-  // As thick as it is where the lattice is chosen, too.
-  phi->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
-      : cells > 0                          ? FreespaceUnionOptions().hullMarginCells / cells
-                                           : FreespaceUnionOptions::AutomaticMargin);
-  phi->SetMinimumViews(this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews
-                                                    : std::stoi(this->MinimumViews));
+  this->Union.SetUp(phi.Get(), cells);
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
   contour->SetCells(cells);

@@ -2,7 +2,7 @@
 #ifndef freespace_ContourStage_h
 #define freespace_ContourStage_h
 
-#include "Stages/RegionOption.h"
+#include "Stages/UnionOptions.h"
 
 #include <CLI/CLI.hpp>
 
@@ -52,11 +52,9 @@ public:
     vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface);
 
 private:
-  RegionOption Region;
+  UnionOptions Union;
   std::string Cells = "auto";
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
-  double HullMargin = -1;  // below 0: somewhat more than a cell
-  std::string MinimumViews = "auto";
   bool NotSharp = false;
   bool NotFitted = false;
   double Simplify = 0.0;

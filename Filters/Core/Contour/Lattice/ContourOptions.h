@@ -10,13 +10,13 @@ namespace freespace
 /// How a field is contoured.
 struct ContourOptions
 {
-  int cells = 256;         ///< of the lattice along its longest side; >= 2
+  int cells = 256; ///< of the lattice along its longest side; >= 2; for a field that suggests none
   double tolerance = 1e-3; ///< of the bisection, as a fraction of a cell; in (0, 0.5]
   double clearance = 0.01; ///< vertices keep so far from the lattice's points, as a fraction of a
                            ///< cell, lest triangles vanish; in (0, 0.25]
   bool exact = true;       ///< take crossings from the field where it knows them, see
                            ///< ContourField::Crossing; the tolerance is for all others
-  bool sharp = false;      ///< rebuild sharp edges and corners from the normals at the crossings
+  bool sharp = true;       ///< rebuild sharp edges and corners from the normals at the crossings
   double sharpAngle =
     60;           ///< between two normals of a cell that make it sharp, degrees; in (0, 180)
   int piece = 0;  ///< which of the pieces to make; in [0, pieces)

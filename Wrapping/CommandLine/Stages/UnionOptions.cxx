@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Stages/UnionOptions.h"
+
+#include "Freespace/FreespaceUnion.h"
+
+namespace freespace
+{
+
+void UnionOptions::AddTo(CLI::App& command, const std::string& group)
+{
+  this->Region.AddTo(command, group);
+  command
+    .add_option("--hull-margin", this->HullMargin,
+      "Offset of the hull of the features to the outside, as a fraction of its diagonal; 0 in the "
+      "paper; default: slightly more than a lattice cell")
+    ->check(CLI::Range(0.0, 10.0))
+    ->group(group);
+  command
+    .add_option("--min-views", this->MinimumViews,
+      "Number of views that must see a point as free; auto: 1, or 2 where views contradict each "
+      "other")
+    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
+    ->type_name("auto|INT")
+    ->capture_default_str()
+    ->group(group);
+}
+
+double UnionOptions::MarginFor(int cells) const
+{
+  if (this->HullMargin >= 0)
+  {
+    return this->HullMargin;
+  }
+  return cells > 0 ? FreespaceUnionOptions().hullMarginCells / cells
+                   : FreespaceUnionOptions::AutomaticMargin;
+}
+
+int UnionOptions::Views() const
+{
+  return this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews
+                                      : std::stoi(this->MinimumViews);
+}
+
+}
