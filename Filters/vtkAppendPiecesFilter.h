@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkAppendPiecesFilter
- * @brief put the pieces of a surface together to the whole, exactly
+ * @brief join the pieces of a surface
  *
- * vtkBisectionContourFilter makes a surface in pieces where a pipeline asks for them, in several
- * processes or one after the other. This filter joins them: points, triangles and cell arrays are those,
- * in the same order and to the last bit, that the contour has when it is made whole.
+ * vtkBisectionContourFilter generates a surface in pieces when a pipeline requests them, in several
+ * processes or one after the other. This filter joins them: the points, triangles and cell arrays are
+ * identical, in order and to the last bit, to those of the contour that is generated as a whole.
  *
- * Input: the pieces, any number of vtkPolyData of triangles on one port (AddInputConnection or
- * AddInputData), in their order. Points that the point array vtkGhostType marks as duplicates belong to
- * another piece: they are found there by their coordinates, which are exactly the same. A marked point
- * that no other piece has is kept as the piece's own. Output: the whole surface, without that array.
+ * Input: the pieces in their order, any number of vtkPolyData of triangles on one port
+ * (AddInputConnection or AddInputData). Points that the point array vtkGhostType marks as duplicates
+ * belong to another piece and are found there by their coordinates, which are identical. A marked point
+ * that no other piece has is kept. Output: the whole surface, without that array.
  *
- * Pieces whose points differ in precision, cells that are no triangles, and more than 2^31 corners are
- * an error, and the output is empty.
+ * Pieces of different precision, cells that are not triangles, and more than 2^31 corners are errors, and
+ * the output is empty.
+ *
+ * @sa vtkBisectionContourFilter vtkFitSurfaceFilter
  */
 #ifndef vtkAppendPiecesFilter_h
 #define vtkAppendPiecesFilter_h
@@ -30,8 +32,8 @@ public:
 
   ///@{
   /**
-   * Keep only what was seen, like vtkBisectionContourFilter's setting of that name: to be set here, not
-   * there, when the result is to be the same as that of the whole. Default off.
+   * Keep only observed triangles, as vtkBisectionContourFilter::SetObservedOnly does. To be set here, not
+   * there, for the same result as that of the whole surface. Default off.
    */
   vtkSetMacro(ObservedOnly, vtkTypeBool);
   vtkGetMacro(ObservedOnly, vtkTypeBool);
@@ -40,8 +42,8 @@ public:
 
   ///@{
   /**
-   * Keep connected components that no feature supports, like vtkBisectionContourFilter's setting of that name,
-   * which leaves them to this filter where it makes pieces. Default off.
+   * Keep connected components without supporting features, as vtkBisectionContourFilter::SetCrumbs does; that
+   * filter keeps them in pieces. Default off.
    */
   vtkSetMacro(Crumbs, vtkTypeBool);
   vtkGetMacro(Crumbs, vtkTypeBool);

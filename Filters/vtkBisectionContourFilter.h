@@ -1,41 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkBisectionContourFilter
- * @brief the boundary of an implicit function's matter, by marching cubes with bisection
+ * @brief the boundary of the matter of an implicit function, by marching cubes with bisection
  *
- * Section 2.2 and figure 6 of the paper: wherever two neighbouring points of a lattice differ in
- * the sign of the function, the transition is located by bisection and becomes a vertex. Only the
- * sign counts, so functions with steps, such as vtkFreespaceUnion, are contoured exactly.
+ * Section 2.2 and figure 6 of the paper: wherever the function has different signs at two neighbouring
+ * lattice points, the transition is located by bisection and becomes a vertex. Only the sign is used, so
+ * discontinuous functions such as vtkFreespaceUnion are contoured exactly.
  *
- * Negative is matter (VTK's inside); zero counts as matter. What lies outside of the bounds counts
- * as free. For a vtkFreespaceUnion without a transform, most of the lattice is decided by whole
- * boxes; any other function is asked at every lattice point, on one thread, since VTK's functions
- * do not promise more.
+ * Negative is matter (VTK's inside), and so is zero. Outside the bounds all is free. For a
+ * vtkFreespaceUnion without a transform, whole boxes decide most of the lattice; any other function is
+ * evaluated at every lattice point, on one thread, because VTK does not guarantee that functions are
+ * thread-safe.
  *
- * Output: a vtkPolyData of triangles, closed, oriented with normals out of the matter, 2-manifold,
- * in the unit of the function, points in double precision. Vertices keep the distance Clearance
- * from lattice points, so that no triangle vanishes. It is the same for any number of threads.
+ * Output: a vtkPolyData of triangles, closed, 2-manifold, oriented with normals out of the matter, in the
+ * unit of the function. Vertices keep the distance Clearance from lattice points, so that no triangle
+ * degenerates. The result does not depend on the number of threads.
  *
  * | cell array | type          | meaning                                                         |
  * |------------|---------------|-----------------------------------------------------------------|
  * | View       | int           | index of the view that carved the triangle, -1 for the hull     |
  * | Kind       | unsigned char | 0 a feature triangle, 1 a silhouette wall, 2 hull or the bounds |
- * | Supported  | unsigned char | 1 where a feature is beside the triangle                         |
+ * | Supported  | unsigned char | 1 if a feature is close to the triangle                         |
  *
- * The field array Lattice has the number of cells, of features, and of those beyond the region of interest.
+ * The field array Lattice holds the number of cells along the longest side, the number of features, and
+ * the number of features beyond the region of interest. All these arrays exist for a vtkFreespaceUnion
+ * only.
  *
- * Silhouette walls stand on the border of a view's map, and where a triangle that the view sees
- * edge-on (above 85 degrees) spans a jump in depth, from an occluding edge to what lies behind.
+ * Silhouette walls are on the border of a view's map, and where a triangle with an angle of incidence
+ * above 85 degrees spans a depth jump, from an occluding edge to the background.
  *
- * Honours UPDATE_PIECE_NUMBER and UPDATE_NUMBER_OF_PIECES: a piece is open where it meets others, and
- * has exactly their points there, which come last and are marked as duplicates in the point array
- * vtkGhostType. The other points of all pieces, one piece after the other, are those of the whole
- * surface, and so are the triangles.
+ * Honours UPDATE_PIECE_NUMBER and UPDATE_NUMBER_OF_PIECES: a piece is open where it meets others and has
+ * the identical points there, which come last and are marked as duplicates in the point array
+ * vtkGhostType. The other points of all pieces, one piece after the other, are those of the whole surface,
+ * and so are the triangles.
  *
- * The arrays are there for a vtkFreespaceUnion only. Without a function, with bounds that are not a
- * finite box, or with a setting out of its range, the filter tells an error and its output is
- * empty. So does a vtkFreespaceUnion with features of which no view has a usable triangle: they
- * were not triangulated, and the surface would be the hull. A function without any matter is no error: the output is empty. So it is after an abort.
+ * A missing function, bounds that are not a finite box, and a setting out of range are errors, and the
+ * output is empty. So is a vtkFreespaceUnion with features but without a usable triangle: its views were
+ * not triangulated, and the surface would be the hull. A function without any matter is not an error: the
+ * output is empty. After an abort it is empty, too.
+ *
+ * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, section 2.2.
+ *
+ * @sa vtkFreespaceUnion vtkFreespaceSurfaceFilter vtkAppendPiecesFilter vtkFitSurfaceFilter
+ *
+ * @warning Matter thinner than a cell can be missed: the lattice samples it at its points only.
  */
 #ifndef vtkBisectionContourFilter_h
 #define vtkBisectionContourFilter_h
@@ -59,7 +67,7 @@ public:
 
   ///@{
   /**
-   * The function whose zero set is the surface.
+   * The function that is contoured.
    */
   virtual void SetImplicitFunction(vtkImplicitFunction* function);
   vtkImplicitFunction* GetImplicitFunction();
@@ -67,8 +75,8 @@ public:
 
   ///@{
   /**
-   * Where to look. An uninitialized box (1, -1, ...), the default, takes the bounds of a
-   * vtkFreespaceUnion's hull; for other functions bounds must be given.
+   * Bounds of the lattice. An uninitialized box (1, -1, ...), the default, takes the bounds of a
+   * vtkFreespaceUnion; other functions require bounds.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -76,9 +84,9 @@ public:
 
   ///@{
   /**
-   * How many cells the lattice has along the longest side of the bounds. Automatic, or -1, takes the cells
-   * that a vtkFreespaceUnion suggests, or fewer where MemoryLimit asks for it, and 256 for other
-   * functions. Default automatic.
+   * Number of lattice cells along the longest side of the bounds. Automatic, or -1, is
+   * vtkFreespaceUnion::GetSuggestedCells, or fewer to respect MemoryLimit, and 256 for other functions.
+   * Default automatic.
    */
   vtkSetMacro(Cells, int);
   vtkGetMacro(Cells, int);
@@ -87,7 +95,7 @@ public:
 
   ///@{
   /**
-   * The tolerance of the bisection, as a fraction of a cell. Default 0.001.
+   * Tolerance of the bisection, as a fraction of a cell. Default 0.001.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -95,8 +103,7 @@ public:
 
   ///@{
   /**
-   * The least distance of a vertex from the lattice's points, as a fraction of a cell. Default
-   * 0.01.
+   * Minimum distance of a vertex from lattice points, as a fraction of a cell. Default 0.01.
    */
   vtkSetMacro(Clearance, double);
   vtkGetMacro(Clearance, double);
@@ -104,8 +111,8 @@ public:
 
   ///@{
   /**
-   * Take crossings exactly where the function knows them, as a vtkFreespaceUnion with MinimumViews 1
-   * does: faster than bisection, and without its tolerance. Default on.
+   * Use exact crossings where the function provides them, as a vtkFreespaceUnion with MinimumViews 1 does:
+   * faster than bisection, and without its tolerance. Default on.
    */
   vtkSetMacro(ExactCrossings, vtkTypeBool);
   vtkGetMacro(ExactCrossings, vtkTypeBool);
@@ -114,10 +121,10 @@ public:
 
   ///@{
   /**
-   * Rebuild sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
-   * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The
-   * surface stays closed, 2-manifold and free of self-intersection. Defaults on and 60 degrees: the noise of
-   * features tilts small triangles by tens of degrees. Off is the paper.
+   * Reconstruct sharp edges and corners from the normals at the crossings (extended marching cubes, Kobbelt
+   * et al., SIGGRAPH 2001), where normals within a cell differ by SharpAngle degrees or more. The surface
+   * remains closed, 2-manifold and free of self-intersection. Off in the paper. Defaults on and 60 degrees:
+   * the noise of features tilts small triangles by tens of degrees.
    */
   vtkSetMacro(SharpEdges, vtkTypeBool);
   vtkGetMacro(SharpEdges, vtkTypeBool);
@@ -128,9 +135,9 @@ public:
 
   ///@{
   /**
-   * Keep crumbs: connected components of the surface that no feature supports. Else they are left out of a
-   * surface that is made whole, and by vtkAppendPiecesFilter of one that is joined from pieces; the
-   * largest component always stays. For a vtkFreespaceUnion only. Default off.
+   * Keep crumbs: connected components of the surface without supporting features. They are otherwise
+   * dropped, from pieces by vtkAppendPiecesFilter; the largest component is always kept. For a
+   * vtkFreespaceUnion only. Default off.
    */
   vtkSetMacro(Crumbs, vtkTypeBool);
   vtkGetMacro(Crumbs, vtkTypeBool);
@@ -139,9 +146,9 @@ public:
 
   ///@{
   /**
-   * Keep only what was seen: the triangles of Kind 0, and those that have a feature beside them. That leaves
-   * an open surface without the hull and the walls, among them the "extra" elements of the paper's figure
-   * 11. For a vtkFreespaceUnion only. Default off.
+   * Keep only observed triangles: those of Kind 0, and those close to a feature. The result is an open
+   * surface without the hull and the walls, which include the "extra" elements of the paper's figure 11.
+   * For a vtkFreespaceUnion only. Default off.
    */
   vtkSetMacro(ObservedOnly, vtkTypeBool);
   vtkGetMacro(ObservedOnly, vtkTypeBool);
@@ -150,27 +157,27 @@ public:
 
   ///@{
   /**
-   * How much memory the output (or the piece of it that is asked for) and its making may take, in MiB;
-   * 0 is no limit. What would take more is an error that names both, told before the work where the
-   * function is a vtkFreespaceUnion, and otherwise as soon as it is known. Default 0.
+   * Limit of the memory for the output (or the requested piece) and its computation, in MiB; 0 is no limit.
+   * Exceeding it is an error that names both numbers, reported in advance for a vtkFreespaceUnion, and
+   * otherwise as soon as it is known. Default 0.
    */
   vtkSetMacro(MemoryLimit, double);
   vtkGetMacro(MemoryLimit, double);
   ///@}
 
   /**
-   * About how much memory the whole output and its making will take, in MiB: found in a fraction of the
-   * time. 0 when the function cannot tell, which only a vtkFreespaceUnion can, and when it was stopped.
+   * Estimate of the memory for the whole output and its computation, in MiB, in a fraction of the time. 0 if
+   * the function is not a vtkFreespaceUnion, and after an abort.
    */
   double EstimateMemory();
 
   /**
-   * How many cells the lattice has, automatic or not, for what is set. 0 when it cannot be told.
+   * The number of cells of the lattice with the current settings, automatic or not. 0 if it is unknown.
    */
   int FindCells();
 
   /**
-   * Covers the function.
+   * Includes the function.
    */
   vtkMTimeType GetMTime() override;
 

@@ -3,43 +3,50 @@
  * @class vtkDelaunayDisparityFilter
  * @brief a triangulated disparity map for each view, under the minimum disparity constraint
  *
- * Triangulates the features of each view in its image (Delaunay) and interpolates their disparity
- * (1 / depth) linearly. Disparity is affine over the image of a plane, so that each triangle of the
- * map is the image of the triangle between the world points. What lies between the camera and the
- * triangles is the view's free space (section 2 of the paper).
+ * The filter works in four steps.
  *
- * The free space of no view may contain a feature that another view recovered (section 2.1, the
- * minimum disparity constraint). With MinimumDisparity on, the points of the other views that stick
- * out of a view's surface are inserted into its triangulation, always the one that is highest above
- * the current surface in disparity, until none is above it by more than Tolerance. Points count
- * where they are in front of the camera and project into the convex hull of the view's own
- * features.
+ * **Outliers.** One outlier in front of the scene would reach every other view through the minimum
+ * disparity constraint. A feature is dropped when fewer than SupportingNeighbors of the six nearest in its
+ * view have a similar disparity (end of section 2.2: support in the image neighbourhood), and, beyond the
+ * paper, when it is in the free space of SeeThroughViews other views, or behind triangles that
+ * ViolatingFeatures features of other views violate. A view that would keep fewer than three features
+ * keeps all.
  *
- * Outliers would spoil every other view, so before anything else features are dropped that fewer
- * than SupportingNeighbors of the six nearest in their view agree with (end of section 2.2: support
- * in the image neighbourhood), and, beyond the paper, those that SeeThroughViews other views see
- * through. A view that would keep fewer than three features keeps all.
+ * **Disparity.** The features of each view are triangulated in its image (Delaunay); their disparity
+ * (1 / depth) is interpolated linearly. Disparity is affine over the image of a plane, so each triangle of
+ * the map is the image of the triangle between the world points. The space between the camera and the
+ * triangles is the view's free space (section 2). The free space of no view may contain a feature that
+ * another view recovered (section 2.1, the minimum disparity constraint): with MinimumDisparity on, points
+ * of other views are inserted into the triangulation, always the one that is highest above the current
+ * surface in disparity, until none is above it by more than Tolerance. Only points that are in front of
+ * the camera and project into the convex hull of the view's own features are considered.
  *
- * Beyond the paper, with ContinueBackground on: where a near edge occludes a far surface the
- * triangulation joins the two by bridges that no surface carries. A bridge, seen at GrazingAngle or
- * more to its normal, through which RefutingViews other views see close to its near side, has its
- * near corners set back to the surface behind: the one that another view has there, or else the plane
- * of the far features around. Off is the paper.
+ * **Background.** Beyond the paper, with ContinueBackground on: at an occlusion boundary the triangulation
+ * joins the near edge and the far surface by bridges, triangles that are on no surface. A bridge whose
+ * angle of incidence is at least GrazingAngle, and which lies in the free space of RefutingViews other
+ * views close to its near side, has its near corners moved back to the surface behind the edge.
  *
- * Triangles longer than LongestEdge in the image, or than GreatestDepthRatio in depth, can be left
- * out, so that they carve nothing: for sparse features, among which long triangles are no surface.
+ * **Trim.** Triangles with an edge longer than LongestEdge in the image, or with a ratio of depths above
+ * GreatestDepthRatio, claim no free space. This is meant for sparse features, between which long triangles
+ * are not on a surface.
  *
- * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader and vtkFeatureSupportFilter make
- * it. Output: the same blocks with triangles. Point data: `ImagePoint` (double x2, pixels) is where
- * the world point projects, which for a view's own features can differ from where it was seen;
- * `SourceView` (int) is the index of the view that supplied the point. Field data as in the input.
- * Features that are not finite, not in front of the camera, or outside the image are left out.
+ * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader, vtkSparseModelReader and
+ * vtkFeatureSupportFilter generate it. Output: the same blocks with triangles. Point data: `ImagePoint`
+ * (double x2, pixels) is the projection of the world point, which for a view's own features can differ
+ * from where it was observed; `SourceView` (int) is the index of the view that supplied the point. Field
+ * data pass. Features that are not finite, not in front of the camera, or outside the image are dropped.
  *
- * A view with fewer than three usable features, or with none but collinear ones, is an error: the
- * filter names the view and its output is empty. Views are worked on in parallel by vtkSMPTools;
- * the result does not depend on the number of threads.
+ * A view with fewer than three usable features, or with collinear ones only, is an error that names the
+ * view, and the output is empty. Views are processed in parallel by vtkSMPTools; the result does not
+ * depend on the number of threads.
  *
  * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, sections 2 and 2.1.
+ *
+ * @sa vtkEdgeStereoReader vtkSparseModelReader vtkFreespaceUnion vtkFreespaceSurfaceFilter
+ *
+ * @warning The triangles of a map are on the surface only if features lie on every edge at which depth
+ * jumps or slope changes. A smooth occluding surface without texture has no such features at its outline:
+ * its triangles then cut through matter.
  */
 #ifndef vtkDelaunayDisparityFilter_h
 #define vtkDelaunayDisparityFilter_h
@@ -65,9 +72,9 @@ public:
 
   ///@{
   /**
-   * How far a point of another view may stick out of a view's surface, as a fraction of its
-   * disparity (to first order: of its depth). 0 is the paper; it draws the surface towards the
-   * camera by the noise of the features. Default 0.0002.
+   * Tolerance of the minimum disparity constraint: by how much the disparity of a point may exceed that of
+   * the surface, as a fraction of its disparity (to first order, of its depth). 0 in the paper, which
+   * biases the surface towards the camera by the noise of the features. Default 0.0002.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -75,8 +82,8 @@ public:
 
   ///@{
   /**
-   * Whether the triangulation keeps the lines of a view's block (edge chains), so that no triangle
-   * crosses an edge that the stereo saw. Lines that cross others are not kept. Off is the paper.
+   * Whether the lines of a view's block (edge chains) constrain the triangulation, so that no triangle
+   * crosses an edge that the stereo found. Lines that intersect others are skipped. Off in the paper.
    * Default off.
    */
   vtkSetMacro(KeepEdges, vtkTypeBool);
@@ -86,7 +93,7 @@ public:
 
   ///@{
   /**
-   * Whether the background is continued below bridges that other views see through. Off is the paper.
+   * Whether the background is continued behind bridges that other views refute. Off in the paper.
    * Default on.
    */
   vtkSetMacro(ContinueBackground, vtkTypeBool);
@@ -96,7 +103,7 @@ public:
 
   ///@{
   /**
-   * The angle to its normal, degrees, from which a triangle that spans a jump is taken for a bridge.
+   * Minimum angle of incidence on a bridge, degrees.
    * Default 70.
    */
   vtkSetMacro(GrazingAngle, double);
@@ -105,7 +112,7 @@ public:
 
   ///@{
   /**
-   * How many other views must see through a bridge. Default 1.
+   * Minimum number of other views that must see through a bridge to refute it. Default 1.
    */
   vtkSetMacro(RefutingViews, int);
   vtkGetMacro(RefutingViews, int);
@@ -113,8 +120,8 @@ public:
 
   ///@{
   /**
-   * How many of the six features that are nearest in the image (within two triangles) must agree with
-   * a feature's disparity. 0 keeps all. Default 2.
+   * Minimum number of the six nearest features in the image (within two triangles) with a similar disparity.
+   * 0 keeps all. Default 2.
    */
   vtkSetMacro(SupportingNeighbors, int);
   vtkGetMacro(SupportingNeighbors, int);
@@ -122,8 +129,8 @@ public:
 
   ///@{
   /**
-   * How many other views must see through a feature, and more than see it, for it to be dropped. 0, the
-   * default and the paper, drops none.
+   * A feature is dropped if it is in the free space of at least this number of other views, and of more than
+   * have it on their surface. 0, the default and the paper, drops none.
    */
   vtkSetMacro(SeeThroughViews, int);
   vtkGetMacro(SeeThroughViews, int);
@@ -131,9 +138,10 @@ public:
 
   ///@{
   /**
-   * A triangle that so many supported features of other views violate (they lie in its free space), and
-   * more than lie on it, is wrong. A feature that is the deepest corner of wrong triangles most of the
-   * way round is dropped before the constraint is enforced. 0, the default and the paper, drops none.
+   * A triangle is wrong if at least this number of supported features of other views violate the constraint
+   * on it, and more than lie on it. A feature is dropped, before the constraint is enforced, if it is the
+   * farthest corner of wrong triangles over most of the angle around it. 0, the default and the paper,
+   * drops none.
    */
   vtkSetMacro(ViolatingFeatures, int);
   vtkGetMacro(ViolatingFeatures, int);
@@ -141,8 +149,8 @@ public:
 
   ///@{
   /**
-   * Triangles with a longer edge in the image, pixels, carve nothing. 0, the default and the paper, is
-   * no limit.
+   * Maximum edge length of a triangle in the image, pixels; a longer one claims no free space. 0, the
+   * default and the paper, is no limit.
    */
   vtkSetMacro(LongestEdge, double);
   vtkGetMacro(LongestEdge, double);
@@ -150,8 +158,8 @@ public:
 
   ///@{
   /**
-   * Triangles whose farthest corner is deeper than this many times the nearest carve nothing. Above 1;
-   * 0, the default and the paper, is no limit.
+   * Maximum ratio of the depths of a triangle's farthest and nearest corners, above 1; a triangle with a
+   * greater one claims no free space. 0, the default and the paper, is no limit.
    */
   vtkSetMacro(GreatestDepthRatio, double);
   vtkGetMacro(GreatestDepthRatio, double);

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkFeatureSupportFilter
- * @brief drop features that have no support in their image neighbourhood
+ * @brief drop features without support in their image neighbourhood
  *
- * One outlier in front of the scene spoils the disparity map of every other view through the minimum
- * disparity constraint. The paper (end of section 2.2) overcomes them "by insisting that the
- * recovered features have a requisite amount of support in a local neighborhood of the image".
+ * The paper (end of section 2.2) overcomes outliers "by insisting that the recovered features have a
+ * requisite amount of support in a local neighborhood of the image". This filter does so with a
+ * neighbourhood of fixed radius. The outliers step of vtkDelaunayDisparityFilter, whose neighbourhood
+ * follows the density of the features, usually makes it unnecessary.
  *
- * A feature is kept when at least MinimumNeighbors other features of its view lie within Radius
- * pixels of it and agree with its disparity (1 / depth) to within DisparityTolerance, a fraction of
- * the greater of the two disparities. Features that are not finite or not in front of their camera
- * are always dropped.
+ * A feature is kept when at least MinimumNeighbors other features of its view lie within Radius pixels of
+ * it and their disparities (1 / depth) differ from its own by at most DisparityTolerance, a fraction of
+ * the greater of the two. Features that are not finite or not in front of their camera are always dropped.
  *
- * Input and output: a vtkMultiBlockDataSet of views (see the README for the arrays). All point data
- * arrays pass; the output has the integer point data array `Support`, the number of agreeing
- * neighbours. Lines (edge chains) pass where both ends survive.
- * A block that is not a view is an error: the filter says which and what it lacks, and its output is
- * empty.
+ * Input and output: a vtkMultiBlockDataSet of views (see the README for the arrays). All point data arrays
+ * pass; the output has in addition the integer point data array `Support`, the number of neighbours with a
+ * similar disparity. Lines (edge chains) pass where both ends are kept. A block that is not a view is an
+ * error that names it and what it lacks, and the output is empty.
+ *
+ * @sa vtkDelaunayDisparityFilter vtkSparseModelReader
  */
 #ifndef vtkFeatureSupportFilter_h
 #define vtkFeatureSupportFilter_h
@@ -41,8 +42,8 @@ public:
 
   ///@{
   /**
-   * When positive, the radius is so many times the mean distance of a view's features instead of
-   * Radius pixels: 2 takes in about 12 of them, however sparse they are. Default 0.
+   * If positive, the radius is this multiple of the mean distance between features of a view instead of
+   * Radius pixels: 2 covers about 12 features at any density. Default 0.
    */
   vtkSetMacro(RadiusInSpacings, double);
   vtkGetMacro(RadiusInSpacings, double);
@@ -50,7 +51,7 @@ public:
 
   ///@{
   /**
-   * How many neighbours must agree. 0, the default, keeps every finite feature.
+   * Minimum number of neighbours with a similar disparity. 0, the default, keeps every finite feature.
    */
   vtkSetMacro(MinimumNeighbors, int);
   vtkGetMacro(MinimumNeighbors, int);
@@ -58,7 +59,7 @@ public:
 
   ///@{
   /**
-   * How far the disparities of two features that agree may differ, as a fraction. Default 0.01.
+   * Maximum difference of similar disparities, as a fraction of the greater one. Default 0.01.
    */
   vtkSetMacro(DisparityTolerance, double);
   vtkGetMacro(DisparityTolerance, double);

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkFitSurfaceFilter
- * @brief move a surface's vertices to where all features together say that it is
+ * @brief fit the vertices of a surface to the features of all views
  *
- * The union of free spaces follows the deepest of its maps, and a map interpolates the noise of every
- * feature. This filter moves the vertices so that the surface is smooth but for sharp edges and fits the
- * features of all views in the sense of robust least squares, see FitSurface in the core.
+ * The union of free spaces follows the deepest of the disparity maps, and each map interpolates the noise
+ * of its features. This filter moves the vertices so that the surface is smooth except at sharp edges and
+ * fits the features of all views in a robust least squares sense; see freespace::FitSurface.
  *
  * Input 0: a vtkPolyData of triangles, 2-manifold, consistently oriented with normals out of the matter.
- * Input 1: the disparity maps that it was made of, or features; of a map only the view's own features
- * count. Output: the same triangles and arrays with other points, in the input's precision; it meets
- * itself nowhere if the input did not. It is the same for any number of threads.
+ * Input 1: the disparity maps from which it was made, or features; of a map only the view's own features
+ * are used. Output: the same triangles and arrays with moved points, in the precision of the input. The
+ * output has no self-intersection if the input has none. It does not depend on the number of threads.
  *
- * Settings out of their range, cells that are no triangles and maps without cameras are an error, and
- * the output is empty; so it is after an abort.
+ * Settings out of range, cells that are not triangles and maps without cameras are errors, and the output
+ * is empty; after an abort it is empty, too.
+ *
+ * @sa vtkBisectionContourFilter vtkFreespaceSurfaceFilter vtkSimplifySurfaceFilter
+ *
+ * @warning Beyond the paper. Details smaller than the distance between features are smoothed.
  */
 #ifndef vtkFitSurfaceFilter_h
 #define vtkFitSurfaceFilter_h
@@ -30,7 +34,7 @@ public:
 
   ///@{
   /**
-   * How often normals are smoothed and vertices moved. 0 leaves the surface as it is.
+   * Number of rounds, in each of which normals are filtered and vertices moved. 0 leaves the surface as it is.
    */
   vtkSetMacro(Rounds, int);
   vtkGetMacro(Rounds, int);
@@ -38,7 +42,7 @@ public:
 
   ///@{
   /**
-   * How often each triangle's normal is mixed with those beside it, in each round.
+   * Number of iterations of the normal filter in each round.
    */
   vtkSetMacro(NormalIterations, int);
   vtkGetMacro(NormalIterations, int);
@@ -46,8 +50,8 @@ public:
 
   ///@{
   /**
-   * Normals that differ by more than about two of it do not mix: the length of the difference of unit
-   * normals.
+   * Standard deviation of the normal filter's range weight, as the length of the difference of two unit
+   * normals: normals that differ by more than about twice as much do not affect each other.
    */
   vtkSetMacro(NormalDeviation, double);
   vtkGetMacro(NormalDeviation, double);
@@ -55,8 +59,8 @@ public:
 
   ///@{
   /**
-   * How far a triangle's slope may be off its smoothed normal, radians: less makes the surface
-   * smoother, more lets it keep to its features.
+   * Expected deviation of a triangle from its filtered normal, radians: a smaller value gives a smoother
+   * surface, a greater one a closer fit to the features.
    */
   vtkSetMacro(Waviness, double);
   vtkGetMacro(Waviness, double);
@@ -64,7 +68,7 @@ public:
 
   ///@{
   /**
-   * Features that are further off the surface belong to another one: a fraction of their depth.
+   * Features farther than this from the surface, as a fraction of their depth, are ignored.
    */
   vtkSetMacro(Reach, double);
   vtkGetMacro(Reach, double);
@@ -72,7 +76,7 @@ public:
 
   ///@{
   /**
-   * A vertex moves so far at most, in the median length of the surface's edges.
+   * Maximum displacement of a vertex, in median edge lengths of the surface.
    */
   vtkSetMacro(MostMove, double);
   vtkGetMacro(MostMove, double);

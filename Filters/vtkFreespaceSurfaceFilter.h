@@ -3,23 +3,22 @@
  * @class vtkFreespaceSurfaceFilter
  * @brief disparity maps to the surface, in one pipeline filter
  *
- * The union of the views' free spaces (vtkFreespaceUnion), its boundary (vtkBisectionContourFilter) and the
- * fit of that to the features (vtkFitSurfaceFilter), so that `maps -> surface -> writer` is a pipeline of
- * connections. Its result is that of the program's `contour`. For Phi itself, as cutters and queries need
- * it, use vtkFreespaceUnion.
+ * Combines the union of the views' free spaces (vtkFreespaceUnion), its boundary
+ * (vtkBisectionContourFilter) and the fit of the boundary to the features (vtkFitSurfaceFilter), so that
+ * `maps -> surface -> writer` is a pipeline of connections. The result is that of the program's `contour`.
+ * For Phi itself, for cutters and queries, use vtkFreespaceUnion.
  *
  * Input: a vtkMultiBlockDataSet of disparity maps, as vtkDelaunayDisparityFilter makes it. Output: a
- * vtkPolyData of triangles with the arrays of vtkBisectionContourFilter. Settings that are not repeated
- * here are those of the three classes: GetFreespaceUnion, GetContour and GetFit. The maps are released when
- * the surface is made. Pieces, progress, abort and errors are those of vtkBisectionContourFilter; a piece of
- * the surface is not fitted.
+ * vtkPolyData of triangles with the arrays of vtkBisectionContourFilter. Further settings are those
+ * of the three classes: GetFreespaceUnion, GetContour and GetFit. The maps are released after execution.
+ * Pieces, progress, abort and errors are those of vtkBisectionContourFilter; pieces are not fitted.
  *
  * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, section 2.2.
  *
  * @sa vtkDelaunayDisparityFilter vtkFreespaceUnion vtkBisectionContourFilter vtkSurfaceWriter
  *
- * @warning The free space theorem needs edges wherever a surface ends. A smooth surface without texture is
- * cut to the polyhedron of its features.
+ * @warning Free space is valid only if features lie on every depth discontinuity. A smooth surface without
+ * texture is cut down to the polyhedron of its features.
  */
 #ifndef vtkFreespaceSurfaceFilter_h
 #define vtkFreespaceSurfaceFilter_h
@@ -41,7 +40,7 @@ public:
 
   ///@{
   /**
-   * What does the work, with all its settings. Do not give them other maps or another function.
+   * The internal classes, for their settings. Do not give them other maps or another function.
    */
   vtkFreespaceUnion* GetFreespaceUnion();
   vtkBisectionContourFilter* GetContour();
@@ -50,8 +49,7 @@ public:
 
   ///@{
   /**
-   * Whether the surface's vertices move to where all features together say that it is. Off is the paper.
-   * Default on.
+   * Whether the vertices are fitted to the features of all views. Off in the paper. Default on.
    */
   vtkSetMacro(FitSurface, vtkTypeBool);
   vtkGetMacro(FitSurface, vtkTypeBool);
@@ -60,8 +58,8 @@ public:
 
   ///@{
   /**
-   * How many cells the lattice has along the longest side of the region; 0, the default, takes as many as
-   * show what the features tell. See vtkBisectionContourFilter::SetCells.
+   * Number of lattice cells along the longest side; -1, the default, is automatic. See
+   * vtkBisectionContourFilter::SetCells.
    */
   void SetCells(int cells);
   int GetCells();
@@ -69,8 +67,8 @@ public:
 
   ///@{
   /**
-   * By how much the hull is pushed out, as a fraction of the diagonal of the region's features; -1, the
-   * default, is somewhat more than a cell of the lattice. See vtkFreespaceUnion::SetHullMargin.
+   * Offset of the hull, as a fraction of the diagonal of the box of the features; -1, the default, is
+   * slightly more than a lattice cell. See vtkFreespaceUnion::SetHullMargin.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);
@@ -78,15 +76,15 @@ public:
 
   ///@{
   /**
-   * So many views must agree that a point is free; -1, the default, is 1 or 2 by how often views contradict
-   * each other. 1 is the paper. See vtkFreespaceUnion::SetMinimumViews.
+   * Number of views in whose free space a point must be to be free; -1, the default, is automatic; 1 in the
+   * paper. See vtkFreespaceUnion::SetMinimumViews.
    */
   void SetMinimumViews(int views);
   int GetMinimumViews();
   ///@}
 
   /**
-   * Covers the three classes' settings.
+   * Includes the settings of the three classes.
    */
   vtkMTimeType GetMTime() override;
 

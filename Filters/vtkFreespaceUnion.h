@@ -3,40 +3,44 @@
  * @class vtkFreespaceUnion
  * @brief the union of the free spaces of triangulated views, as an implicit function
  *
- * Phi' of section 2.2 of the paper. A point is free when it lies, seen from some view, in front of
- * the view's triangulated disparity map, or when it lies outside of the convex hull of the
- * features in the region of interest.
+ * Phi' of section 2.2 of the paper. A point is free if, in some view, it is in front of the triangulated
+ * disparity map, or if it is outside the convex hull of the features in the region of interest.
  *
- * **Sign**: negative in matter, positive in free space, zero on the boundary; the gradient points
- * out of the matter. **Value**: a length, in the unit of the camera model: the greater of the
- * signed distance to the hull and, over the views that claim the point, the depth of the map less
- * the depth of the point. It is continuous but for steps where the claim of a view ends, at the
- * silhouette walls through the border of its map. A point that falls outside of all triangles of a
- * view, or behind it, is not claimed by the view.
+ * **Sign**: negative in matter, positive in free space, zero on the boundary; the gradient points out of
+ * the matter. **Value**: a length, in the unit of the camera model: the greater of the signed distance to
+ * the hull and, over the views that claim the point, the depth of the map less the depth of the point. It
+ * is continuous except where the claim of a view ends, at the silhouette walls through the border of its
+ * map. A view does not claim points that are outside all triangles of its map, or behind the camera.
  *
- * Taken literally, the hull cuts away all matter that lies on it and has no thickness there, such
- * as a board under the scene: HullMargin pushes the hull out.
+ * Without a margin the hull cuts away all matter that lies on it and has no thickness, such as a board
+ * under the scene; HullMargin moves the hull outward.
  *
- * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or
- * from a pipeline by SetInputConnection. Features that are not finite are left out, and so are
- * triangles that touch one or a point that is not in front of its camera. Where there is no feature
- * at all, everything is free. A block that is not a map is an error: IsValid tells. The function is then
- * positive everywhere, but queries fail closed: nothing is free. Neither is what is not finite.
+ * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or from a
+ * pipeline by SetInputConnection. Features that are not finite are ignored, and so are triangles with such
+ * a corner or with a corner that is not in front of the camera. Without any feature, all space is free. A
+ * block that is not a map is an error, see IsValid. The function is then positive everywhere, but queries
+ * fail closed: nothing is free. Neither are coordinates that are not finite.
  *
- * The inner structures are built at the first evaluation after a change. Evaluation is safe from
- * several threads. Maps that were changed in place are noticed by GetMTime, which every VTK filter
- * asks before it executes; who evaluates by hand calls Update first.
+ * The acceleration structures are built at the first evaluation after a change. Evaluation is thread-safe.
+ * Maps that were modified in place are noticed by GetMTime, which every VTK filter calls before it
+ * executes; code that evaluates directly calls Update first.
  *
- * Building takes seconds where there are many views, and so may a batch of queries. Both are watched
- * like an algorithm: ProgressEvent tells the fraction done, from the calling thread, and an observer
- * that sets AbortExecute stops them within a tenth of a second. A function that was stopped while it was
- * built is not valid, and is built anew when it is next asked; a stopped batch is empty. What builds the
- * function on its own behalf, such as vtkBisectionContourFilter, shows the building as a part of its own
- * progress and hears its own AbortExecute. Evaluations of a function that is not up to date build it
- * without an event.
+ * Building takes seconds for many views, and so can a batch of queries. Both report progress like an
+ * algorithm: ProgressEvent carries the fraction done, from the calling thread, and an observer that sets
+ * AbortExecute stops them within a tenth of a second. A function whose building was stopped is not valid
+ * and is rebuilt at the next call; a stopped batch has no results. A class that builds the function on its
+ * own behalf, such as vtkBisectionContourFilter, reports this as a part of its own progress and honours
+ * its own AbortExecute. An evaluation of a function that is not up to date builds it without events.
  *
- * Usable wherever VTK takes a vtkImplicitFunction: vtkSampleFunction, vtkCutter, vtkClipPolyData.
- * vtkBisectionContourFilter finds its boundary without asking most of the volume.
+ * It works wherever VTK takes a vtkImplicitFunction: vtkSampleFunction, vtkCutter, vtkClipPolyData.
+ * vtkBisectionContourFilter extracts its boundary without evaluating most of the volume.
+ *
+ * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, section 2.2.
+ *
+ * @sa vtkDelaunayDisparityFilter vtkBisectionContourFilter vtkFreespaceSurfaceFilter vtkOccupancyMapWriter
+ *
+ * @warning Free space is claimed by interpolation between features. One wrong feature far behind the
+ * surface can carve a hole through matter; MinimumViews 2 requires that two views agree.
  */
 #ifndef vtkFreespaceUnion_h
 #define vtkFreespaceUnion_h
@@ -66,7 +70,7 @@ public:
 
   ///@{
   /**
-   * The disparity maps, one block per view. Takes the place of a connection.
+   * The disparity maps, one block per view. Replaces a connection.
    */
   virtual void SetMaps(vtkMultiBlockDataSet* maps);
   vtkMultiBlockDataSet* GetMaps();
@@ -75,7 +79,7 @@ public:
 
   ///@{
   /**
-   * Takes the maps from a pipeline, which is brought up to date when the function is.
+   * Takes the maps from a pipeline, which is updated together with the function.
    */
   virtual void SetInputConnection(vtkAlgorithmOutput* output);
   vtkAlgorithmOutput* GetInputConnection();
@@ -83,9 +87,9 @@ public:
 
   ///@{
   /**
-   * So many views must agree that a point is free. 1 is the paper. More than there are views is an error.
-   * Automatic, or -1, is 1 or 2, by how often the views contradict each other at features; FindMinimumViews
-   * tells which, after an Update. Default automatic.
+   * Number of views in whose free space a point must be to be free; 1 in the paper. A number above that of
+   * the views is an error. Automatic, or -1, is 1 or 2, by how often views contradict each other at
+   * features; FindMinimumViews returns the number in use, after an Update. Default automatic.
    */
   vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);
@@ -95,9 +99,9 @@ public:
 
   ///@{
   /**
-   * By how much the hull is pushed out, as a fraction of the diagonal of the bounding box of the features
-   * in the region. 0 is the paper, 10 and more an error. Automatic, or -1, is somewhat more than a cell
-   * of the lattice that GetSuggestedCells tells. Default automatic.
+   * Offset of the hull's planes to the outside, as a fraction of the diagonal of the bounding box of the
+   * features in the region; 0 in the paper. A value of 10 or more is an error. Automatic, or -1, is
+   * slightly more than a cell of the lattice of GetSuggestedCells. Default automatic.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);
@@ -113,11 +117,11 @@ public:
 
   ///@{
   /**
-   * The region of interest: the hull, and with it the bounds, are those of the features in it; features
-   * beyond carve like all others. It is found from the features, holds all of them, or is a box (x0, x1,
-   * y0, y1, z0, z1) in world coordinates, whose setting sets the mode. A few features far behind the
-   * scene would else decide how large the lattice is. Default automatic, which is the whole where the
-   * features are one compact body.
+   * The region of interest, whose features define the hull and the bounds; features beyond it claim free
+   * space like all others. It is found from the features (automatic), contains all of them (whole), or is a
+   * box (x0, x1, y0, y1, z0, z1) in world coordinates; SetRegion also sets the mode. Without it a few
+   * features far behind the scene determine the size of the lattice. Default automatic, which equals whole
+   * where the features are one compact cluster.
    */
   vtkSetClampMacro(RegionMode, int, AUTOMATIC_REGION, BOX_REGION);
   vtkGetMacro(RegionMode, int);
@@ -130,9 +134,9 @@ public:
 
   ///@{
   /**
-   * What was found, after an Update: the box of the features in the region (1, -1, ... without any), how many
-   * features there are, how many of them lie beyond the region, and how many cells along its longest
-   * side show what the features tell, by the footprint of their pixels and their distances.
+   * Results of an Update: the bounding box of the features in the region (1, -1, ... without any), the
+   * number of features, the number of them beyond the region, and the number of lattice cells along the
+   * longest side that resolves the features, from the footprint of pixels and the distances of features.
    */
   void GetRegionBounds(double bounds[6]);
   vtkIdType GetNumberOfFeatures();
@@ -151,15 +155,15 @@ public:
 
   ///@{
   /**
-   * Queries of the last page of the paper, "obstacle avoidance and ray tracing". They bring the
-   * function up to date first, so that several threads may ask only after an Update. Coordinates are
-   * the function's own: a Transform is not applied. Matter is closed.
+   * Queries for "obstacle avoidance and ray tracing", the last page of the paper. They update the function
+   * first; several threads may call them only after an Update. Coordinates are those of the function, a
+   * Transform is not applied. Matter is closed.
    *
-   * FirstBlocked is the first place where a segment leaves free space, as a fraction of it, exact:
-   * 0 when it begins in matter, infinite when all of it is free. IsSphereFree and IsBoxFree tell
-   * whether all of a closed ball or box (x0, x1, y0, y1, z0, z1) is free: true is certain; false can
-   * also mean that matter is closer than about a thousandth of the body's size, or that the free
-   * spaces of two views only just meet in it.
+   * FirstBlocked returns the parameter at which a segment first leaves free space, as a fraction of the
+   * segment, exactly: 0 if it begins in matter, infinity if all of it is free. IsSphereFree and IsBoxFree
+   * return whether a closed ball or box (x0, x1, y0, y1, z0, z1) is free. True is certain; false can also
+   * mean that matter is closer than about a thousandth of the body's size, or that the free spaces of two
+   * views only touch in it.
    */
   bool IsPointFree(const double point[3]);
   double FirstBlocked(const double first[3], const double last[3]);
@@ -170,9 +174,9 @@ public:
 
   ///@{
   /**
-   * The same in batches, on all threads: results are resized to one value for each point (segment,
-   * ball), 1 where it is free. False, with an error, when the numbers of points do not agree, and
-   * without one, and without results, when an observer stopped it.
+   * The same in batches, on all threads. Results are resized to one value for each point, segment or ball, 1
+   * where it is free. Returns false with an error if the numbers of points differ, and without an error
+   * and without results if an observer aborted.
    */
   bool ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free);
   bool FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions);
@@ -180,40 +184,40 @@ public:
   ///@}
 
   /**
-   * Brings the maps and the inner structures up to date.
+   * Updates the maps and the acceleration structures.
    */
   void Update();
 
   ///@{
   /**
-   * Set by an observer of ProgressEvent to stop what is going on. Taken back when something begins.
+   * Set by an observer of ProgressEvent to abort. Reset when building or a batch begins.
    */
   void SetAbortExecute(vtkTypeBool abort) { this->AbortExecute = abort; }
   vtkGetMacro(AbortExecute, vtkTypeBool);
   ///@}
 
   /**
-   * Whether the maps could be used, after an Update.
+   * Whether the maps are valid, after an Update.
    */
   bool IsValid();
 
   /**
-   * The box of the pushed out hull, after an Update: outside of it all is free. Without features an
-   * uninitialized box (1, -1, ...).
+   * The bounding box of the hull with its margin, after an Update; all is free outside it. Without features
+   * an uninitialized box (1, -1, ...).
    */
   void GetBounds(double bounds[6]);
 
   /**
-   * Covers the maps, their blocks and the pipeline they come from.
+   * Includes the maps, their blocks and the pipeline that generates them.
    */
   vtkMTimeType GetMTime() override;
 
 #ifndef __VTK_WRAP__
   ///@{
   /**
-   * The core's function, up to date; null where the maps are not valid. For classes that build it on
-   * their own behalf: with a progress of theirs in place of the function's, which makes it throw
-   * freespace::Aborted when it wants to stop. IsBuilt tells whether there is nothing to do for it.
+   * The core's function, up to date; null if the maps are not valid. A class that builds it on its own
+   * behalf passes its own progress, which throws freespace::Aborted to stop. IsBuilt returns whether
+   * it is up to date.
    */
   std::shared_ptr<const freespace::FreespaceUnion> GetCore();
   std::shared_ptr<const freespace::FreespaceUnion> GetCore(const freespace::Progress& progress);

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMergeViewsFilter
- * @brief put features from several sources into one set of views
+ * @brief merge the features of several sources into one set of views
  *
- * Structure from motion gives isolated points, edge stereo gives edges: where both saw the same image,
- * their features belong into one disparity map, since there each limits what the other would carve.
+ * Structure from motion recovers isolated points, edge stereo recovers edges. Where both cover the same
+ * image, their features belong in one disparity map, so that each bounds the free space that the other
+ * claims.
  *
- * Input: any number of vtkMultiBlockDataSet of views on one port (AddInputConnection). Views of one
- * image and the same camera, whatever their names, become one view, named as the first of them; all
- * others pass as they are. Output: the views in the order of their first appearance.
+ * Input: any number of vtkMultiBlockDataSet of views on one port (AddInputConnection). Views of the same
+ * image and the same camera are merged into one, whatever their names; it has the name of the first. All
+ * other views pass unchanged. Output: the views in the order of their first appearance.
  *
- * Of a view that was merged only the point data arrays pass that all its parts have, with the same
- * type and number of components; lines (edge chains) pass; field data is the first part's. A block
- * that is not a view is an error: the filter says which and what it lacks, and its output is empty.
+ * A merged view has the point data arrays that all its parts have with the same type and number of
+ * components; lines (edge chains) pass; the field data are those of the first part. A block that is not a
+ * view is an error that names it and what it lacks, and the output is empty.
+ *
+ * @sa vtkEdgeStereoReader vtkSparseModelReader vtkDelaunayDisparityFilter
  */
 #ifndef vtkMergeViewsFilter_h
 #define vtkMergeViewsFilter_h

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSimplifySurfaceFilter
- * @brief leave out a surface's vertices where it is flat, within a bound on the distance
+ * @brief decimate a surface within a bound on the distance
  *
- * Edges are collapsed by CGAL's surface mesh simplification with the cost and placement of Lindstrom and
- * Turk ("Fast and memory efficient polygonal simplification", Visualization 1998). Each collapse is held
- * against the bound: no point of the result is further than Distance from the input, and none of the
- * input further from the result.
+ * Collapses edges by CGAL's surface mesh simplification with the cost and placement of Lindstrom and Turk
+ * ("Fast and memory efficient polygonal simplification", Visualization 1998). Each collapse is checked
+ * against the bound: no point of the result is farther than Distance from the input, and no point of the
+ * input is farther from the result.
  *
  * Input: a vtkPolyData of triangles, closed or with borders, 2-manifold, consistently oriented. Output:
- * the same with fewer triangles, in the input's unit and precision. It is 2-manifold, and meets itself
- * nowhere if the input did not. Borders stay as they are. So do the borders between triangles that
- * differ in the cell arrays View or Kind (see vtkBisectionContourFilter), which the output has with the
- * values that the input has there. Other arrays are left out. It is the same for any number of threads.
+ * the same with fewer triangles, in the unit and precision of the input. It is 2-manifold, and has no
+ * self-intersection if the input has none. Borders are kept, and so are the borders between triangles that
+ * differ in the cell arrays View or Kind (see vtkBisectionContourFilter); the output has these two arrays.
+ * Other arrays are dropped. The result does not depend on the number of threads.
  *
- * A Distance that is not above 0, cells that are no triangles, triangles that are no 2-manifold and
- * points that are not finite are an error, and the output is empty; so it is after an abort.
+ * A Distance that is not positive, cells that are not triangles, triangles that are not 2-manifold and
+ * points that are not finite are errors, and the output is empty; after an abort it is empty, too.
+ *
+ * @sa vtkFitSurfaceFilter vtkSurfaceWriter
  */
 #ifndef vtkSimplifySurfaceFilter_h
 #define vtkSimplifySurfaceFilter_h
@@ -32,7 +34,7 @@ public:
 
   ///@{
   /**
-   * The greatest distance between the two surfaces, either way, in the input's unit. Must be set:
+   * Maximum distance between the two surfaces, in both directions, in the input's unit. Must be set;
    * default 0.
    */
   vtkSetMacro(Distance, double);

@@ -23,6 +23,8 @@
  *
  * A picture that cannot be read, a description of a board that makes no sense, and too few pictures
  * with the board are errors that name them; the output is then empty. After an abort it is empty, too.
+ *
+ * @sa vtkSparseModelWriter vtkEdgeStereoReader
  */
 #ifndef vtkBoardCalibration_h
 #define vtkBoardCalibration_h
@@ -45,7 +47,7 @@ public:
   /**
    * The pictures.
    */
-  void AddFileName(const std::string& fileName);
+  void AddFileName(VTK_FILEPATH const std::string& fileName);
   void ClearFileNames();
   int GetNumberOfFileNames();
   ///@}
@@ -104,13 +106,13 @@ public:
    * After an Update: write each picture with the corners that were found in it, as a .jpg into a folder
    * that is made when its last part is missing. Returns 1, or 0 after an error.
    */
-  int WritePictures(const std::string& folder);
+  int WritePictures(VTK_FILEPATH const std::string& folder);
 
   /**
    * After an Update: write a scene.json of the pictures, with the board, for a camera model in the
    * folder `model`. Returns 1, or 0 after an error.
    */
-  int WriteScene(const std::string& fileName, const std::string& model);
+  int WriteScene(VTK_FILEPATH const std::string& fileName, const std::string& model);
 
 protected:
   vtkBoardCalibration();

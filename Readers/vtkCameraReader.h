@@ -3,13 +3,14 @@
  * @class vtkCameraReader
  * @brief read the cameras of a scene or of a structure-from-motion model
  *
- * FileName is a scene.json, the folder of a COLMAP model (cameras, images, points3D; .txt or .bin) or of
- * a bundle.out, or such a file or a .nvm.
- * The output has one block for each image, named after it: a view without features, with the field
- * data arrays CameraIntrinsics, CameraFromWorld, ImageSize and ImageFile. Pixels follow COLMAP; the
- * lens's distortion is left out.
+ * FileName is a scene.json, the folder of a COLMAP model (cameras, images, points3D; .txt or .bin) or of a
+ * bundle.out, or one of these files or a .nvm. The output has one block for each image, named after it: a
+ * view without features, with the field data arrays CameraIntrinsics, CameraFromWorld, ImageSize and
+ * ImageFile. Pixels follow COLMAP's convention; lens distortion is omitted.
  *
  * A file that cannot be read is an error that names it and the fault; the output is then empty.
+ *
+ * @sa vtkSparseModelReader vtkCalibratedCamera
  */
 #ifndef vtkCameraReader_h
 #define vtkCameraReader_h
@@ -32,7 +33,14 @@ public:
   /**
    * A scene.json or the folder of a COLMAP model.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

@@ -23,6 +23,8 @@
  *
  * vtkEdgeStereoReader chooses by itself where a scene names no clusters; one of these, with other
  * parameters, tells it how (vtkEdgeStereoReader::SetClusterProposal).
+ *
+ * @sa vtkEdgeStereoReader
  */
 #ifndef vtkClusterProposal_h
 #define vtkClusterProposal_h
@@ -44,7 +46,14 @@ public:
   /**
    * The scene.json whose images and camera model are used.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
@@ -53,9 +62,23 @@ public:
    * Instead of a scene.json: the folder or file of a camera model, as vtkSparseModelReader reads it, and
    * the folder of its photographs. FileName must then be empty.
    */
-  vtkSetMacro(Model, std::string);
+  virtual void SetModel(VTK_FILEPATH const std::string& model)
+  {
+    if (this->Model != model)
+    {
+      this->Model = model;
+      this->Modified();
+    }
+  }
   vtkGetMacro(Model, std::string);
-  vtkSetMacro(Images, std::string);
+  virtual void SetImages(VTK_FILEPATH const std::string& images)
+  {
+    if (this->Images != images)
+    {
+      this->Images = images;
+      this->Modified();
+    }
+  }
   vtkGetMacro(Images, std::string);
   ///@}
 
@@ -146,7 +169,7 @@ public:
   /**
    * Write a scene.json with the clusters that Propose() chose. Returns 1, or 0 after an error.
    */
-  int WriteScene(const std::string& fileName);
+  int WriteScene(VTK_FILEPATH const std::string& fileName);
 
 protected:
   vtkClusterProposal();

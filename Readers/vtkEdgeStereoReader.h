@@ -46,6 +46,13 @@
  * overlap and a scene of which nothing is left is an error that names the file or cluster; the output is
  * then empty. After an abort it is empty, too. The reader runs again when the scene's file has changed on disk, but
  * does not watch the images and the camera model.
+ *
+ * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, section 3.
+ *
+ * @sa vtkClusterProposal vtkDelaunayDisparityFilter vtkFeatureOverlayWriter
+ *
+ * @warning Only edges are matched. A surface without texture has features at its outline only, and
+ * highlights and reflections are matched as if they were on the surface.
  */
 #ifndef vtkEdgeStereoReader_h
 #define vtkEdgeStereoReader_h
@@ -76,7 +83,14 @@ public:
   /**
    * The scene.json to read.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

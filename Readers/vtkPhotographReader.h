@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkPhotographReader
- * @brief read the photographs of a scene, with their cameras
+ * @brief read the images of a scene, with their cameras
  *
- * Reads a scene.json, its camera model and its images. Output: a vtkMultiBlockDataSet of one
- * vtkImageData (three unsigned chars, the bottom row first as VTK has it) for each image of the
- * model whose file exists, named after it, with the field data CameraIntrinsics, CameraFromWorld,
- * ImageSize and ImageFile of the views (see the README). A lens's distortion is taken out of the
- * image.
+ * Reads a scene.json, its camera model and its images. Output: a vtkMultiBlockDataSet with one vtkImageData
+ * (three unsigned chars, the bottom row first as in VTK) for each image of the model whose file exists,
+ * named after it, with the field data CameraIntrinsics, CameraFromWorld, ImageSize and ImageFile of the
+ * views (see the README). Lens distortion is removed from the images.
  *
- * An image without a file is left out: a model may hold more images than were kept. A scene without
- * any image, or an image that is damaged or not of its camera's size, is an error that names it;
+ * An image without a file is skipped, since a model can contain more images than were kept. A scene without
+ * any image, and an image that is damaged or whose size is not that of its camera, are errors that name it;
  * the output is then empty.
+ *
+ * @sa vtkTextureBaker vtkViewDependentTextureMapper vtkEdgeStereoReader
  */
 #ifndef vtkPhotographReader_h
 #define vtkPhotographReader_h
@@ -32,7 +33,14 @@ public:
   /**
    * The scene.json.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

@@ -40,6 +40,8 @@
  * A model that is missing, truncated or malformed, one with a camera model that is not supported,
  * and one without a single view is an error that names the file; the output is then empty. After an
  * abort it is empty, too.
+ *
+ * @sa vtkSparseModelWriter vtkDelaunayDisparityFilter vtkMergeViewsFilter
  */
 #ifndef vtkSparseModelReader_h
 #define vtkSparseModelReader_h
@@ -60,7 +62,14 @@ public:
   /**
    * The folder of a COLMAP model, a file that ends in .out (Bundler) or in .nvm (VisualSFM).
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
@@ -101,7 +110,7 @@ public:
    * Whether a path looks like that of a model: a folder with COLMAP's files or a bundle.out, or a
    * file that ends in .out or .nvm.
    */
-  static bool CanReadFile(const std::string& path);
+  static bool CanReadFile(VTK_FILEPATH const std::string& path);
 
   ///@{
   /**

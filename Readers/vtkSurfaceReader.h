@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSurfaceReader
- * @brief read a surface from PLY, STL, OBJ or VTP, chosen by the file's ending
+ * @brief read a surface from PLY, STL, OBJ or VTP, by the file's extension
  *
- * The counterpart of vtkSurfaceWriter. Polygons come as triangles. A file that is missing, of another
- * ending, or without a single triangle is an error that names it; the output is then empty.
+ * The counterpart of vtkSurfaceWriter. Polygons are converted to triangles. A file that is missing, has
+ * another extension, or has no triangles is an error that names it; the output is then empty.
+ *
+ * @sa vtkSurfaceWriter vtkSurfacePicture
  */
 #ifndef vtkSurfaceReader_h
 #define vtkSurfaceReader_h
@@ -25,7 +27,14 @@ public:
   /**
    * The file to read; its ending (.ply, .stl, .obj or .vtp) tells the format.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

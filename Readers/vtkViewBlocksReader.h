@@ -3,10 +3,11 @@
  * @class vtkViewBlocksReader
  * @brief read features or disparity maps from a .vtm file
  *
- * The counterpart of vtkViewBlocksWriter. Unlike vtkXMLMultiBlockDataReader it does not accept what it
- * could not read whole: a missing or truncated file, a missing block, a block without its arrays or
- * with a camera that cannot be used is an error that names the file and the view, and leaves the
- * output empty.
+ * The counterpart of vtkViewBlocksWriter. Unlike vtkXMLMultiBlockDataReader it does not accept partial
+ * data: a missing or truncated file, a missing block, and a block without its arrays or with an invalid
+ * camera are errors that name the file and the view; the output is then empty.
+ *
+ * @sa vtkViewBlocksWriter vtkDelaunayDisparityFilter
  */
 #ifndef vtkViewBlocksReader_h
 #define vtkViewBlocksReader_h
@@ -27,7 +28,14 @@ public:
   /**
    * The .vtm file to read.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

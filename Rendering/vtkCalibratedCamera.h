@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkCalibratedCamera
- * @brief make a vtkCamera see what a calibrated camera saw
+ * @brief set a vtkCamera to a calibrated camera
  *
- * A window of the image's size (or of its proportions) then shows each point of space at the pixel
- * where the calibrated camera has it: unequal focal lengths, skew and a principal point off the
- * centre are all kept. The camera looks along +z, x right and y down, `x_cam = R x_world + t`; the
- * centre of the image's first pixel is (0.5, 0.5), and so is that of the window's top left pixel.
- * What was set up in the vtkCamera before is replaced, but for its clipping range.
+ * In a window of the image's size, or of its aspect ratio, each point of space then appears at the pixel
+ * where the calibrated camera projects it: unequal focal lengths, skew and an off-centre principal point
+ * are all reproduced. The camera looks along +z, with x to the right and y down, `x_cam = R x_world + t`;
+ * the centre of the image's first pixel is (0.5, 0.5), and so is that of the window's top left pixel. All
+ * settings of the vtkCamera are replaced, except its clipping range.
  *
- * A camera that is not one (values that are not finite, a matrix that is no rotation, a focal
- * length or a size that is not positive) is an error: 0 is returned and the vtkCamera is left as it
- * was.
+ * An invalid camera (values that are not finite, a matrix that is not a rotation, a focal length or a size
+ * that is not positive) is an error: 0 is returned and the vtkCamera is unchanged.
+ *
+ * @sa vtkCameraReader vtkSurfacePicture vtkViewDependentTextureMapper
  */
 #ifndef vtkCalibratedCamera_h
 #define vtkCalibratedCamera_h

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkOSMesaRenderWindow
- * @brief a render window in memory: no X server, no GPU, no environment variable
+ * @brief an off-screen render window without X server, GPU or environment variable
  *
- * It renders with Mesa's software rasterizer through libOSMesa, below a VTK that was built for X11
- * as Debian's is. Nobody needs to name the class: where no X server answers, the module's object
- * factory makes it whenever a vtkRenderWindow is asked for, in C++ (with vtk_module_autoinit) and
- * in Python (once freespace.vtkFreespaceRendering is imported, before or after
- * vtkRenderingOpenGL2), and an interactor without a window system whenever one is asked for. It can also be made by name, also where there is an X server. Each window
- * has a context of its own; several windows may be used in turn, and each from one thread at a
- * time.
+ * Renders with Mesa's software rasterizer through libOSMesa, under a VTK that was built for X11, as
+ * Debian's is. Programs do not name the class: if no X server answers, the object factory of the module
+ * creates it for vtkRenderWindow::New, and an interactor without a window system for
+ * vtkRenderWindowInteractor::New, in C++ (with vtk_module_autoinit) and in Python (after the import of
+ * freespace.vtkFreespaceRendering, before or after vtkRenderingOpenGL2). It can also be created by name,
+ * with an X server as well. Each window has its own context; several windows can be used in turn, and each
+ * from one thread at a time.
  *
  * From release 9.4 VTK chooses such a window by itself, and this class does not exist.
  *
- * When no context can be made, an error is reported and Render does nothing; SupportsOpenGL tells.
+ * If no context can be created, an error is reported and Render does nothing; see SupportsOpenGL.
+ *
+ * @sa vtkSurfacePicture
  */
 #ifndef vtkOSMesaRenderWindow_h
 #define vtkOSMesaRenderWindow_h
@@ -38,12 +40,12 @@ public:
   void SetSize(int width, int height) override;
 
   /**
-   * Makes the context, if there is none yet, and VTK's state for it. Rendering does this by itself.
+   * Creates the context, if there is none, and VTK's state for it. Render calls it.
    */
   void Initialize() override;
 
   /**
-   * Frees what VTK holds in the context, then the context. The next Render begins anew.
+   * Releases VTK's resources in the context, then the context. The next Render creates a new one.
    */
   void Finalize() override;
 
@@ -58,8 +60,8 @@ public:
 
   ///@{
   /**
-   * Makes the context current, and takes back what was current before. An actor that two windows share
-   * releases its resources in the other one's context in between. Calls nest.
+   * Makes the context current, and restores the previous one. An actor that two windows share releases its
+   * resources in the context of the other in between. Calls can be nested.
    */
   void PushContext() override;
   void PopContext() override;
@@ -67,7 +69,7 @@ public:
 
   ///@{
   /**
-   * Whether a context can be made (it is made), and that it is not a direct one.
+   * Whether a context can be created (it is created); it is never a direct one.
    */
   int SupportsOpenGL() override;
   vtkTypeBool IsDirect() override;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSurfacePicture
- * @brief a picture of a surface, as a calibrated camera or a passer-by would see it
+ * @brief render a surface to an image
  *
- * Input: a vtkPolyData. Output: a vtkImageData of three unsigned chars, the first row at the bottom
- * as VTK has it. The surface is shown in a neutral grey under two lights that move with the camera,
- * facet by facet, its inside in a warmer tone, on a light background; where it has colours
- * (unsigned char point or cell scalars) they are shown. A mapper of one's own, for instance a
- * vtkViewDependentTextureMapper, is shown as it is, without lights.
+ * Input: a vtkPolyData. Output: a vtkImageData of three unsigned chars. The surface is rendered in a
+ * neutral grey with flat shading and two lights that move with the camera, its back faces in a warmer
+ * tone, on a light background; colours (unsigned char point or cell scalars) are used where it has them. A
+ * mapper that is set, for instance a vtkViewDependentTextureMapper, is rendered without lights.
  *
  * SetView or SetViewBlock choose a calibrated camera (see vtkCalibratedCamera) and its image size.
- * Without one the picture is of Size: from the viewpoint that the surface knows (a camera in its field
- * data, as the program's surfaces have it in .ply and .vtp), or else of the whole from Azimuth and
- * Elevation, +z up.
- * Each pixel is the mean of Samples x Samples rays.
+ * Otherwise the image has the size Size, and the viewpoint is that stored with the surface (a camera in
+ * its field data, as the program writes it to .ply and .vtp), or else Azimuth and Elevation, with +z up
+ * and all of the surface in sight. Each pixel is the mean of Samples x Samples rays.
  *
- * The window lives on between updates: a second picture of the same surface costs little. An empty
- * surface, or a camera that is not one, is an error; the output is then empty.
+ * The window is kept between updates, so that a second image of the same surface is cheap. An empty
+ * surface or an invalid camera is an error; the output is then empty.
+ *
+ * @sa vtkCalibratedCamera vtkViewDependentTextureMapper vtkSurfaceReader
  */
 #ifndef vtkSurfacePicture_h
 #define vtkSurfacePicture_h
@@ -40,8 +40,8 @@ public:
 
   ///@{
   /**
-   * Look from a calibrated camera, given as arrays (K and [R t] row-major, width and height) or by
-   * the field data of a view's block. Default: none. NoView goes back to the default viewpoint.
+   * Use a calibrated camera, given as arrays (K and [R t] row-major, width and height) or by the field data
+   * of a view's block. Default: none. NoView restores the default viewpoint.
    */
   void SetView(
     const double intrinsics[9], const double cameraFromWorld[12], const int imageSize[2]);
@@ -51,7 +51,7 @@ public:
 
   ///@{
   /**
-   * Width and height in pixels of a picture without a view. Default 1280 x 960.
+   * Width and height in pixels of an image without a view. Default 1280 x 960.
    */
   vtkSetVector2Macro(Size, int);
   vtkGetVector2Macro(Size, int);
@@ -59,7 +59,7 @@ public:
 
   ///@{
   /**
-   * Whether a picture without a view is taken from the surface's own viewpoint, where it has one. Default on.
+   * Whether an image without a view uses the viewpoint that is stored with the surface, if any. Default on.
    */
   vtkSetMacro(UseViewpoint, vtkTypeBool);
   vtkGetMacro(UseViewpoint, vtkTypeBool);
@@ -68,8 +68,8 @@ public:
 
   ///@{
   /**
-   * Otherwise, where a picture without a view is taken from, in degrees: the azimuth from +x towards +y around the
-   * surface, the elevation above the plane of x and y, -90 to 90. Defaults -123 and 33: obliquely from above.
+   * Viewpoint of an image without a view and without a stored viewpoint, in degrees: the azimuth from +x
+   * towards +y, the elevation above the xy plane, -90 to 90. Defaults -123 and 33.
    */
   vtkSetMacro(Azimuth, double);
   vtkGetMacro(Azimuth, double);
@@ -79,8 +79,8 @@ public:
 
   ///@{
   /**
-   * Side of the square of rays whose mean makes a pixel, 1 to 8. Default 2. It is lowered where the
-   * picture would be larger than 8192 pixels before the mean is taken.
+   * Each pixel is the mean of Samples x Samples rays, 1 to 8. Default 2. It is reduced if the image would
+   * otherwise be rendered at more than 8192 pixels along a side.
    */
   vtkSetClampMacro(Samples, int, 1, 8);
   vtkGetMacro(Samples, int);
@@ -96,17 +96,17 @@ public:
 
   ///@{
   /**
-   * What shows the surface; it is given the input. Default: none, for the grey look.
+   * The mapper of the surface, which receives the input. Default: none, for the neutral grey.
    */
   virtual void SetMapper(vtkPolyDataMapper* mapper);
   vtkPolyDataMapper* GetMapper();
   ///@}
 
   /**
-   * Brings the picture up to date and writes it. The file is written beside its target and renamed;
+   * Updates the image and writes it. The file is written beside its target and renamed;
    * a file that cannot be written is an error that names it. Returns 1, or 0 after an error.
    */
-  int WritePNG(const std::string& fileName);
+  int WritePNG(VTK_FILEPATH const std::string& fileName);
 
   vtkMTimeType GetMTime() override;
 

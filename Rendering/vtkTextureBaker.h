@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTextureBaker
- * @brief give a surface a texture made of photographs, once and for all viewpoints
+ * @brief bake a texture for a surface from photographs
  *
- * Input: a vtkPolyData of triangles. Output port 0: the surface with texture coordinates and, as point
- * scalars "RGB", the colours of its points; points are repeated for each chart that they are in. Output
+ * Input: a vtkPolyData of triangles. Output port 0: the surface with texture coordinates and with the point
+ * scalars "RGB", the colours of its points; points are duplicated for each chart that contains them. Output
  * port 1: the texture, a vtkImageData of three unsigned chars whose first row is v = 0.
  *
- * The surface is cut into charts, each seen along an axis of space, packed into one image and coloured
- * from all photographs that see it (by a depth map for each), the best one, which looks at it squarely and
- * from near, counting by far the most. The weights fade towards occlusions and borders, and
- * differences of exposure are levelled, so that neither charts nor photographs leave a seam. What no
- * photograph sees takes the colours around it within a chart, UnseenColor elsewhere. The surface is
- * taken as it would look in diffuse light: a baked texture knows no viewpoint.
+ * The surface is cut into charts, each projected along a coordinate axis, which are packed into one image.
+ * Each texel is a weighted mean over all photographs that see it (by a depth map for each); the photograph
+ * that views it most frontally and closely has by far the greatest weight. The weights decrease towards
+ * occlusions and borders, and differences of exposure are levelled, so that neither charts nor photographs
+ * leave seams. Texels that no photograph sees are filled from their surroundings in the chart, or with
+ * UnseenColor. The texture assumes diffuse reflection, since it does not depend on the viewpoint.
  *
- * Photographs that are none, or an empty surface, are an error; the output is then empty.
+ * Missing photographs or an empty surface are errors; the output is then empty.
+ *
+ * @sa vtkPhotographReader vtkTexturedSurfaceWriter vtkViewDependentTextureMapper
  */
 #ifndef vtkTextureBaker_h
 #define vtkTextureBaker_h
@@ -48,9 +50,9 @@ public:
 
   ///@{
   /**
-   * Side of a texel in the unit of the surface. Default 0: the median size of the photographs' pixels on
-   * the surface, or larger where the texture would exceed LargestTexture. One that is given and too small for
-   * that is an error that tells what fits.
+   * Side of a texel in the unit of the surface. Default 0: the median footprint of the photographs' pixels
+   * on the surface, or larger if the texture would exceed LargestTexture. A given size that is too small for
+   * LargestTexture is an error that names the minimum.
    */
   vtkSetClampMacro(TexelSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TexelSize, double);
@@ -58,7 +60,7 @@ public:
 
   ///@{
   /**
-   * The texture's longest side in texels. Default 8192.
+   * Maximum side of the texture in texels. Default 8192.
    */
   vtkSetClampMacro(LargestTexture, int, 16, 32768);
   vtkGetMacro(LargestTexture, int);
@@ -66,7 +68,7 @@ public:
 
   ///@{
   /**
-   * How much the best photograph outweighs the others: a power of confidence, incidence and resolution.
+   * Exponent of the weights (confidence, incidence and resolution): how far the best photograph dominates.
    * Default 4.
    */
   vtkSetClampMacro(Sharpness, double, 0.0, 100.0);
@@ -75,7 +77,7 @@ public:
 
   ///@{
   /**
-   * Whether differences of exposure between photographs are evened out. Default on.
+   * Whether differences of exposure between photographs are levelled. Default on.
    */
   vtkSetMacro(Leveling, vtkTypeBool);
   vtkGetMacro(Leveling, vtkTypeBool);
@@ -84,7 +86,7 @@ public:
 
   ///@{
   /**
-   * Pixels from an occlusion or the photograph's border to full confidence, at least 1. Default 12.
+   * Distance from an occlusion or the border of a photograph to full confidence, pixels; at least 1. Default 12.
    */
   vtkSetClampMacro(Feather, double, 1.0, 1000.0);
   vtkGetMacro(Feather, double);
@@ -92,7 +94,7 @@ public:
 
   ///@{
   /**
-   * Red, green and blue, 0 to 1, of what no photograph sees. Default 0.7 each.
+   * Red, green and blue, 0 to 1, of texels that no photograph sees. Default 0.7 each.
    */
   vtkSetVector3Macro(UnseenColor, double);
   vtkGetVector3Macro(UnseenColor, double);
@@ -100,7 +102,7 @@ public:
 
   ///@{
   /**
-   * How many charts the last texture has, and the side of its texels.
+   * Number of charts of the last texture, and the side of its texels.
    */
   vtkGetMacro(NumberOfCharts, int);
   vtkGetMacro(BakedTexelSize, double);

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkViewDependentTextureMapper
- * @brief show a surface in the colours of photographs, chosen for the viewpoint
+ * @brief map photographs onto a surface, depending on the viewpoint
  *
- * What figure 12 of the paper is rendered with. For each fragment, of the photographs that see its
- * point of the surface those are blended that look at it most nearly as the renderer's camera does:
- * the penalty of a photograph is the angle between the two lines of sight (as a chord of the unit
- * sphere) and an addition where its pixels are coarser there, divided by the confidence in it. The
- * BlendedViews photographs of least penalty are mixed by weights that vanish at the penalty of the
- * next one, so that nothing jumps where the choice changes (the weights of the unstructured
- * lumigraph).
+ * Figure 12 of the paper is rendered this way. Each fragment blends those photographs that see its point
+ * from a direction close to that of the renderer's camera. The penalty of a photograph is the angle
+ * between the two lines of sight (as a chord of the unit sphere) plus a term for coarser pixels, divided
+ * by its confidence. The BlendedViews photographs with the smallest penalties are blended with weights
+ * that vanish at the penalty of the next one, so that the result is continuous (the weights of the
+ * unstructured lumigraph).
  *
- * Whether a photograph sees a point is told by a depth map of the surface from its camera, made
- * once for each surface; a photograph never colours what lies behind another part of the surface,
- * nor the back of what it saw from the front. Confidence falls towards occlusions and the
- * photograph's border within Feather pixels, which hides the seams. What no photograph sees has
- * UnseenColor.
+ * Visibility is decided by a depth map of the surface for each photograph, rendered once for each surface;
+ * a photograph colours neither what is behind another part of the surface nor back faces. Confidence
+ * decreases towards occlusions and the border of the photograph within Feather pixels, which hides seams.
+ * Fragments that no photograph sees have UnseenColor.
  *
- * Photographs: the output of a vtkPhotographReader. All of them are used when the limits of the
- * OpenGL context, MaximumNumberOfViews and TextureMemory allow; otherwise those that matter most
- * for the current camera, see GetNumberOfViewsInUse. Photographs of a side beyond
- * MaximumPhotographSize, or the context's limit, are reduced to it. The surface is shown unlit. It
- * works in every OpenGL 3.2 context.
+ * Photographs: the output of a vtkPhotographReader. All are used if the limits of the OpenGL context,
+ * MaximumNumberOfViews and TextureMemory allow it; otherwise those that matter most for the current camera,
+ * see GetNumberOfViewsInUse. Photographs larger than MaximumPhotographSize, or than the limit of the
+ * context, are reduced. The surface is rendered unlit. Requires OpenGL 3.2.
  *
- * A block that is not a photograph is an error that names it; the surface is then shown in
- * UnseenColor.
+ * A block that is not a photograph is an error that names it; the surface is then rendered in UnseenColor.
+ *
+ * @sa vtkPhotographReader vtkSurfacePicture vtkTextureBaker
+ *
+ * @warning Photographs must have the exposure of each other: differences remain visible.
  */
 #ifndef vtkViewDependentTextureMapper_h
 #define vtkViewDependentTextureMapper_h
@@ -55,7 +55,7 @@ public:
 
   ///@{
   /**
-   * How many photographs are mixed in a fragment, 1 to 8. Default 4.
+   * Number of photographs that are blended in a fragment, 1 to 8. Default 4.
    */
   vtkSetClampMacro(BlendedViews, int, 1, 8);
   vtkGetMacro(BlendedViews, int);
@@ -63,7 +63,7 @@ public:
 
   ///@{
   /**
-   * Pixels from an occlusion or the photograph's border to full confidence, at least 1. Default 12.
+   * Distance from an occlusion or the border of a photograph to full confidence, pixels; at least 1. Default 12.
    */
   vtkSetClampMacro(Feather, double, 1.0, 1000.0);
   vtkGetMacro(Feather, double);
@@ -71,8 +71,7 @@ public:
 
   ///@{
   /**
-   * How far behind the surface that a photograph sees a point still counts as seen, in sizes of the
-   * photograph's pixel at that depth. Default 6.
+   * Tolerance of the depth test for visibility, in footprints of the photograph's pixel at that depth. Default 6.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1000.0);
   vtkGetMacro(Tolerance, double);
@@ -80,7 +79,7 @@ public:
 
   ///@{
   /**
-   * Samples of a pixel that an edge of the surface crosses, 1 to 8, where the OpenGL context has as many.
+   * Number of samples of pixels on the surface's edges, 1 to 8, as far as the OpenGL context supports it.
    * Default 4.
    */
   vtkSetClampMacro(EdgeSamples, int, 1, 8);
@@ -89,7 +88,7 @@ public:
 
   ///@{
   /**
-   * The most photographs that are held by the context at a time, 1 to 64. Default 64.
+   * Maximum number of photographs in the context at a time, 1 to 64. Default 64.
    */
   vtkSetClampMacro(MaximumNumberOfViews, int, 1, 64);
   vtkGetMacro(MaximumNumberOfViews, int);
@@ -97,7 +96,7 @@ public:
 
   ///@{
   /**
-   * Longest side of a photograph in the context, in pixels. Default 2048.
+   * Maximum side of a photograph in the context, pixels. Default 2048.
    */
   vtkSetClampMacro(MaximumPhotographSize, int, 16, 16384);
   vtkGetMacro(MaximumPhotographSize, int);
@@ -105,7 +104,7 @@ public:
 
   ///@{
   /**
-   * The most memory that photographs and depth maps may take in the context, in MiB. Default 1024.
+   * Limit of the memory for photographs and depth maps in the context, MiB. Default 1024.
    */
   vtkSetClampMacro(TextureMemory, int, 1, 1048576);
   vtkGetMacro(TextureMemory, int);
@@ -113,7 +112,7 @@ public:
 
   ///@{
   /**
-   * Red, green and blue, 0 to 1, of what no photograph sees. Default 0.7 each.
+   * Red, green and blue, 0 to 1, of fragments that no photograph sees. Default 0.7 each.
    */
   vtkSetVector3Macro(UnseenColor, double);
   vtkGetVector3Macro(UnseenColor, double);
@@ -121,7 +120,7 @@ public:
 
   ///@{
   /**
-   * The photographs that the last rendering chose from, by the names of their blocks.
+   * The photographs that the last rendering used, by the names of their blocks.
    */
   int GetNumberOfViewsInUse();
   std::string GetViewInUse(int index);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkFeatureOverlayWriter
- * @brief draw the features of each view over its picture
+ * @brief draw the features of each view over its image
  *
- * For each view of the input one PNG, named after the view, in OutputFolder: the reference picture,
- * darkened, with the view's features over it, coloured by disparity from blue (far) to red (near), the
- * lines between them drawn as such. Figure 8 of the paper.
+ * Writes one PNG for each view of the input, named after the view, to OutputFolder: the reference image,
+ * darkened, with the features of the view, coloured by disparity from blue (far) to red (near), and its
+ * lines. Figure 8 of the paper.
  *
- * Input: a vtkMultiBlockDataSet of features, as vtkEdgeStereoReader gives it. Features are where a
- * camera without distortion sees them: over a picture with lens distortion they are off by as much.
+ * Input: a vtkMultiBlockDataSet of features, as vtkEdgeStereoReader generates it. Features are drawn where
+ * a camera without distortion sees them, so they are off by the distortion of an image's lens.
  *
- * A picture that cannot be read or has not the size that the view tells, a folder that cannot be
- * written or a block that is not a view is an error that names it; Write() then returns 0. Each picture
- * is written beside its target and renamed.
+ * An image that cannot be read or whose size is not that of the view, a folder that cannot be written and
+ * a block that is not a view are errors that name it; Write() then returns 0. Each file is written beside
+ * its target and renamed.
+ *
+ * @sa vtkEdgeStereoReader
  */
 #ifndef vtkFeatureOverlayWriter_h
 #define vtkFeatureOverlayWriter_h
@@ -33,15 +35,29 @@ public:
   /**
    * The folder to which the views' ImageFile is relative.
    */
-  vtkSetMacro(ImagesFolder, std::string);
+  virtual void SetImagesFolder(VTK_FILEPATH const std::string& imagesFolder)
+  {
+    if (this->ImagesFolder != imagesFolder)
+    {
+      this->ImagesFolder = imagesFolder;
+      this->Modified();
+    }
+  }
   vtkGetMacro(ImagesFolder, std::string);
   ///@}
 
   ///@{
   /**
-   * Where the pictures go; made when it is missing.
+   * The folder for the images; created if it is missing.
    */
-  vtkSetMacro(OutputFolder, std::string);
+  virtual void SetOutputFolder(VTK_FILEPATH const std::string& outputFolder)
+  {
+    if (this->OutputFolder != outputFolder)
+    {
+      this->OutputFolder = outputFolder;
+      this->Modified();
+    }
+  }
   vtkGetMacro(OutputFolder, std::string);
   ///@}
 

@@ -3,18 +3,19 @@
  * @class vtkOccupancyMapWriter
  * @brief write the free space of triangulated views as an OctoMap
  *
- * Input: a vtkMultiBlockDataSet of disparity maps. Their Phi' (see vtkFreespaceUnion) is asked at the
- * middle of each cell of a lattice over the pushed out hull, which is aligned to OctoMap's: where it is
- * positive the cell is free, elsewhere occupied. A cell whose middle no view looked at, because it
- * falls outside of all triangles of every view's map or behind the view, is left unknown. Cells of one
- * kind are pruned to larger ones.
+ * Input: a vtkMultiBlockDataSet of disparity maps. Their Phi' (see vtkFreespaceUnion) is evaluated at the
+ * centre of each cell of a lattice over the hull, which is aligned to OctoMap's: the cell is free where it
+ * is positive, and occupied elsewhere. A cell that no view observes, because its centre is outside all
+ * triangles of every map or behind the camera, is unknown. Equal cells are pruned to larger ones.
  *
- * A .bt holds free and occupied in two bits a node; an .ot also holds probabilities, which are
+ * A .bt stores free and occupied in two bits per node; an .ot also stores probabilities, which are
  * OctoMap's clamping thresholds (0.12 and 0.97). Lengths are in the unit of the camera model.
  *
- * The file is written beside its target and renamed. An ending that is neither, maps that are none or
- * empty, a resolution that asks for more than 65,536 cells along a side or a billion in all, and a folder
+ * The file is written beside its target and renamed. Another extension, invalid or empty maps, settings
+ * out of range, a resolution with more than 65,536 cells along a side or a billion in all, and a folder
  * that cannot be written are errors that name the file; Write() then returns 0.
+ *
+ * @sa vtkDelaunayDisparityFilter vtkFreespaceUnion
  */
 #ifndef vtkOccupancyMapWriter_h
 #define vtkOccupancyMapWriter_h
@@ -33,15 +34,22 @@ public:
 
   ///@{
   /**
-   * The file to write; its ending (.bt or .ot) chooses the format.
+   * The file to write; its extension (.bt or .ot) determines the format.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
   ///@{
   /**
-   * Side of the smallest cells. Default 0: the longest side of the hull's box by 128.
+   * Side of the smallest cells. Default 0: 1/128 of the longest side of the hull's bounding box.
    */
   vtkSetClampMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Resolution, double);

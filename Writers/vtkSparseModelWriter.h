@@ -3,17 +3,19 @@
  * @class vtkSparseModelWriter
  * @brief write views as a COLMAP model
  *
- * Writes the cameras, images and points of views into a folder, as COLMAP's programs read them: as
- * cameras.txt, images.txt and points3D.txt, or as .bin. The folder is made when only its last part
- * is missing. The files are made in a folder of their own and then renamed; files of the other
- * format are removed, since they would stand for another model.
+ * Writes the cameras, images and points of views to a folder, as COLMAP's programs read them: as
+ * cameras.txt, images.txt and points3D.txt, or as .bin. The folder is created if only its last component
+ * is missing. The files are written to a temporary folder and renamed; files of the other format are
+ * removed, since they would belong to another model.
  *
- * Views that vtkSparseModelReader read are written with their numbers, lenses, tracks and keypoints
- * as they were. Other views, those of vtkEdgeStereoReader for instance, become images with a
- * pinhole camera each, their features points that one image sees.
+ * Views from vtkSparseModelReader are written with their numbers, lenses, tracks and keypoints unchanged.
+ * Other views, for instance those of vtkEdgeStereoReader, become images with a pinhole camera each, and
+ * their features points that one image observes.
  *
- * A folder that cannot be written, a block that is no view, and two views with the same image are
- * errors that name the folder or view; Write() then returns 0.
+ * A folder that cannot be written, a block that is not a view, and two views of the same image are errors
+ * that name the folder or view; Write() then returns 0.
+ *
+ * @sa vtkSparseModelReader vtkBoardCalibration
  */
 #ifndef vtkSparseModelWriter_h
 #define vtkSparseModelWriter_h
@@ -34,7 +36,14 @@ public:
   /**
    * The folder to write to.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSurfaceWriter
- * @brief write a surface as PLY, STL, OBJ or VTP, chosen by the file's ending
+ * @brief write a surface as PLY, STL, OBJ or VTP, by the file's extension
  *
  * The file is written beside its target and renamed, so that the target is either the old file or the
- * whole new one. PLY and STL are binary; only VTP keeps the data arrays. An ending that is none of
- * these, or a folder that cannot be written, is an error that names the file; Write() then returns 0.
+ * complete new one. PLY and STL are binary; a PLY has double precision if single precision does not
+ * represent every coordinate, and an STL that would lose the surface is an error. Only VTP stores the data
+ * arrays. Another extension, or a folder that cannot be written, is an error that names the file; Write()
+ * then returns 0.
+ *
+ * @sa vtkSurfaceReader vtkFreespaceSurfaceFilter vtkTexturedSurfaceWriter
  */
 #ifndef vtkSurfaceWriter_h
 #define vtkSurfaceWriter_h
@@ -24,16 +28,23 @@ public:
 
   ///@{
   /**
-   * The file to write; its ending (.ply, .stl, .obj or .vtp) chooses the format.
+   * The file to write; its extension (.ply, .stl, .obj or .vtp) determines the format.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
   /**
-   * Whether the ending of a file name is one that this class writes.
+   * Whether the class writes files with this extension.
    */
-  static bool CanWriteFile(const std::string& fileName);
+  static bool CanWriteFile(VTK_FILEPATH const std::string& fileName);
 
 protected:
   vtkSurfaceWriter() = default;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTexturedSurfaceWriter
- * @brief write a surface with its texture as GLB, OBJ or PLY, chosen by the file's ending
+ * @brief write a surface with its texture as GLB, OBJ or PLY, by the file's extension
  *
- * Input port 0: a vtkPolyData of triangles with texture coordinates; port 1: the texture, a vtkImageData
- * of unsigned chars (both are the outputs of a vtkTextureBaker). A .glb holds everything in one
- * file, shown unlit because the photographs hold the light; an .obj has a .mtl and a .png beside it; a
- * .ply has the colours of points (their unsigned char scalars) in place of a texture.
+ * Input port 0: a vtkPolyData of triangles with texture coordinates; port 1: the texture, a vtkImageData of
+ * unsigned chars. Both are outputs of a vtkTextureBaker. A .glb contains everything in one file, unlit
+ * because the photographs contain the light; an .obj has a .mtl and a .png beside it; a .ply has colours of
+ * points (their unsigned char scalars) instead of a texture.
  *
- * glTF looks along its own axes: y is up. With ZUp (default on) the GLB's node turns z up into y up; the
- * coordinates themselves are kept, relative to the node's translation where they are large.
+ * In glTF y is up. With ZUp (default on) the node of the GLB rotates z up to y up; the coordinates
+ * themselves are unchanged, relative to the node's translation if they are large.
  *
- * Files are written beside their target and renamed. An ending that is none of these, a surface without
- * texture coordinates or colours, or a folder that cannot be written is an error that names the
- * file; Write() then returns 0.
+ * Files are written beside their target and renamed. Another extension, a surface without texture
+ * coordinates or colours, and a folder that cannot be written are errors that name the file; Write() then
+ * returns 0.
+ *
+ * @sa vtkTextureBaker vtkSurfaceWriter
  */
 #ifndef vtkTexturedSurfaceWriter_h
 #define vtkTexturedSurfaceWriter_h
@@ -32,15 +34,22 @@ public:
 
   ///@{
   /**
-   * The file to write; its ending (.glb, .obj or .ply) chooses the format.
+   * The file to write; its extension (.glb, .obj or .ply) determines the format.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
   ///@{
   /**
-   * Whether z is up in the scene, which a GLB then turns. Default on.
+   * Whether z is up in the scene; a GLB is then rotated to y up. Default on.
    */
   vtkSetMacro(ZUp, vtkTypeBool);
   vtkGetMacro(ZUp, vtkTypeBool);
@@ -48,9 +57,9 @@ public:
   ///@}
 
   /**
-   * Whether the ending of a file name is one that this class writes.
+   * Whether the class writes files with this extension.
    */
-  static bool CanWriteFile(const std::string& fileName);
+  static bool CanWriteFile(VTK_FILEPATH const std::string& fileName);
 
 protected:
   vtkTexturedSurfaceWriter();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkViewBlocksWriter
- * @brief write features or disparity maps as a .vtm file
+ * @brief write features or disparity maps to a .vtm file
  *
- * Writes VTK's XML multi-block format: NAME.vtm and a folder NAME beside it with one .vtp per view.
- * Both are made in a folder of their own and then renamed, the .vtm last. A folder that cannot be
- * written is an error that names the file; Write() then returns 0.
+ * Writes VTK's XML multi-block format: NAME.vtm and a folder NAME beside it with one .vtp per view. Both
+ * are written to a temporary folder and renamed, the .vtm last. A folder that cannot be written is an
+ * error that names the file; Write() then returns 0.
+ *
+ * @sa vtkViewBlocksReader vtkEdgeStereoReader vtkDelaunayDisparityFilter
  */
 #ifndef vtkViewBlocksWriter_h
 #define vtkViewBlocksWriter_h
@@ -26,7 +28,14 @@ public:
   /**
    * The file to write, ending in .vtm.
    */
-  vtkSetMacro(FileName, std::string);
+  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
+  {
+    if (this->FileName != fileName)
+    {
+      this->FileName = fileName;
+      this->Modified();
+    }
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
