@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Support/ErrorObserver.h"
 #include "Support/PlainSettings.h"
 #include "vtkOccupancyMapWriter.h"
 
@@ -229,7 +230,7 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
 
 TEST(OccupancyMapWriter, FaultsAreErrors)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  const QuietWarnings quiet;
   const std::string folder = TemporaryFolder();
   EXPECT_EQ(Write("/nowhere/at/all/map.bt", Maps()), 0);
   EXPECT_EQ(Write(folder + "/map.xyz", Maps()), 0);

@@ -14,7 +14,7 @@ namespace freespace
 std::string Utf8FromName(const std::string& name);
 std::string NameFromUtf8(const std::string& text);
 
-/// A name for a message: control characters become \n, \t or \x1b.
+/// A name for a message: control characters become escapes as in C.
 std::string Printable(const std::string& text);
 
 }
