@@ -153,6 +153,7 @@ freespace::EdgeStereoOptions vtkEdgeStereoReader::StereoOptions() const
   options.matching.minimumAngle = this->MinimumAngle;
   options.matching.colorTolerance = this->ColorTolerance;
   options.matching.minimumRun = this->MinimumRun;
+  options.patches.isOn = this->Patches;
   if (this->MinimumDepth > 0)
   {
     options.matching.maximumDisparity = 1 / this->MinimumDepth;
@@ -199,7 +200,7 @@ int vtkEdgeStereoReader::RequestData(
     const std::vector<freespace::CalibratedImage> images =
       CamerasOf(checked, edges, options.matching, this->RefineCameras, progress.Part(0.2, 0.6));
     const std::vector<freespace::EdgeView> views =
-      freespace::FindSceneFeatures(scene, images, edges, needed, options.matching,
+      freespace::FindSceneFeatures(scene, images, edges, needed, options,
         freespace::SMPParallelFor, progress.Part(0.6, 1), checked.warnings);
     for (const std::string& warning : checked.warnings)
     {
@@ -231,6 +232,7 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumAngle: " << this->MinimumAngle << "\n";
   os << indent << "ColorTolerance: " << this->ColorTolerance << "\n";
   os << indent << "MinimumRun: " << this->MinimumRun << "\n";
+  os << indent << "Patches: " << this->Patches << "\n";
   os << indent << "EveryImage: " << this->EveryImage << "\n";
   os << indent << "RefineCameras: " << this->RefineCameras << "\n";
   os << indent << "CheckImages: " << this->CheckImages << "\n";

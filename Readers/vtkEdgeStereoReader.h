@@ -10,7 +10,8 @@
  * from all of them together, its position in the reference image (ImagePoint) and its world
  * position lie on one ray. An edge nearly parallel to a baseline cannot be matched along it,
  * therefore clusters have best one horizontal and one vertical triplet. A silhouette is matched by
- * the colours of the object in front, whatever lies behind it.
+ * the colours of the object in front, whatever lies behind it. Where edges have no match and between them,
+ * patches of the images are aligned, and those that agree become features, too (see Patches).
  *
  * The depths that are searched are those between MinimumDepth and MaximumDepth that the cameras of
  * the triplets see in common. Lens distortion is removed from the edges' positions.
@@ -23,9 +24,9 @@
  * |-----------|------------------|------------------|------------------------------------------------|
  * | PointData | ImagePoint       | double x2        | where the reference sees it, pixels            |
  * | PointData | RGB              | unsigned char x3 | its colour in the reference image              |
- * | PointData | EdgeDirection    | double x3        | of the edge in the world, unit length          |
+ * | PointData | EdgeDirection    | double x3        | of the edge in the world, unit length; 0: patch|
  * | PointData | MatchingCost     | double           | 0 (perfect) to 1                               |
- * | PointData | ChainId          | int              | number of its polyline                         |
+ * | PointData | ChainId          | int              | number of its polyline; -1: a patch            |
  * | FieldData | CameraIntrinsics | double x9        | K of the reference, row-major                  |
  * | FieldData | CameraFromWorld  | double x12       | [R t], row-major                               |
  * | FieldData | ImageSize        | int x2           | width, height                                  |
@@ -165,6 +166,16 @@ public:
 
   ///@{
   /**
+   * Whether small patches of the images, aligned to each other, become features where the edges leave
+   * gaps: at edges without a match and between them. The paper has edges only. Default on.
+   */
+  vtkSetMacro(Patches, bool);
+  vtkGetMacro(Patches, bool);
+  vtkBooleanMacro(Patches, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether every image of a cluster makes a view, not the reference alone: never (off), always (on), or
    * in small scenes, whose clusters have no more than 15 images in all. There the images that are no
    * references see most that is new, and the time is short. Default small scenes.
@@ -252,6 +263,7 @@ protected:
   double MinimumAngle = 6.0;
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
+  bool Patches = true;
   int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
   bool CheckImages = true;

@@ -12,15 +12,17 @@ namespace freespace
 namespace
 {
 
+// Of the edge pixels, those that are features. Patches do not count: they may agree by chance.
 double Share(const EdgeView& view)
 {
-  return static_cast<double>(view.points.size()) /
-    static_cast<double>(std::max<std::size_t>(view.tokens, 1));
+  const auto matched =
+    std::count_if(view.chainIds.begin(), view.chainIds.end(), [](int chain) { return chain >= 0; });
+  return static_cast<double>(matched) / static_cast<double>(std::max<std::size_t>(view.tokens, 1));
 }
 
 // The view of a cluster, or one without features.
-EdgeView FeaturesOf(EdgeStore& edges, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, bool isNeeded, const MatcherOptions& matching,
+EdgeView FeaturesOf(EdgeStore& edges, PhotographStore& photographs, const std::vector<CalibratedImage>& images,
+  const Cluster& cluster, bool isNeeded, const EdgeStereoOptions& options,
   const CancellationFlag& stop)
 {
   EdgeView nothing;
@@ -28,7 +30,7 @@ EdgeView FeaturesOf(EdgeStore& edges, const std::vector<CalibratedImage>& images
   nothing.imageFile = cluster.reference;
   try
   {
-    return FindFeatures(edges, images, cluster, matching, stop);
+    return FindFeatures(edges, photographs, images, cluster, options, stop);
   }
   catch (const Aborted&)
   {
@@ -81,13 +83,14 @@ std::vector<char> FindPoorViews(const std::vector<EdgeView>& views)
 
 std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   const std::vector<CalibratedImage>& images, EdgeStore& edges, std::size_t needed,
-  const MatcherOptions& matching, const ParallelFor& parallelFor, const Progress& progress,
+  const EdgeStereoOptions& options, const ParallelFor& parallelFor, const Progress& progress,
   std::vector<std::string>& warnings)
 {
   std::vector<EdgeView> views(scene.clusters.size());
+  PhotographStore photographs(scene.ImagesFolder());
   ParallelForWithProgress(views.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
-    { views[i] = FeaturesOf(edges, images, scene.clusters[i], i < needed, matching, stop); });
+    { views[i] = FeaturesOf(edges, photographs, images, scene.clusters[i], i < needed, options, stop); });
   const std::vector<char> isPoor = FindPoorViews(views);
   std::vector<EdgeView> good;
   std::string poor;

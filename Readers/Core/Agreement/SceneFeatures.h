@@ -25,7 +25,7 @@ std::vector<char> FindPoorViews(const std::vector<EdgeView>& views);
 /// does for the first cluster of the needed that fails, TooFewFeatures only when no view is left.
 std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   const std::vector<CalibratedImage>& images, EdgeStore& edges, std::size_t needed,
-  const MatcherOptions& matching, const ParallelFor& parallelFor, const Progress& progress,
+  const EdgeStereoOptions& options, const ParallelFor& parallelFor, const Progress& progress,
   std::vector<std::string>& warnings);
 
 }

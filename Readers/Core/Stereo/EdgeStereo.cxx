@@ -2,6 +2,7 @@
 #include "Stereo/EdgeStereo.h"
 
 #include "Common/Error.h"
+#include "Patches/PatchStereo.h"
 #include "Stereo/ClusterMatching.h"
 
 #include <limits>
@@ -64,19 +65,52 @@ void FillView(const EdgeChains& edges, const LargeVector<EdgeMatch>& matches, Ed
   }
 }
 
+// Where edges have no match: every so many tokens.
+std::vector<Eigen::Vector2d> OpenEdges(
+  const EdgeChains& edges, const LargeVector<EdgeMatch>& matches, int step)
+{
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  {
+    for (int i = edges.begin[chain]; i < edges.begin[chain + 1]; i += step)
+    {
+      if (matches[i].images == 0)
+      {
+        places.push_back(edges.tokens[i].position);
+      }
+    }
+  }
+  return places;
+}
+
+void AddPatches(const std::vector<PatchFeature>& patches, EdgeView& view)
+{
+  for (const PatchFeature& patch : patches)
+  {
+    view.points.push_back(view.camera.Unproject(patch.imagePoint, 1 / patch.disparity));
+    view.imagePoints.push_back(patch.imagePoint);
+    view.colors.push_back(patch.color);
+    view.matchingCosts.push_back(patch.cost);
+    view.edgeDirections.push_back(Eigen::Vector3d::Zero());
+    view.chainIds.push_back(-1);
+  }
+}
+
 }
 
 void EdgeStereoOptions::Check() const
 {
   this->edges.Check();
   this->matching.Check();
+  this->patches.Check();
 }
 
-EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, const MatcherOptions& options, const CancellationFlag& stop)
+EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
+  const std::vector<CalibratedImage>& images, const Cluster& cluster,
+  const EdgeStereoOptions& options, const CancellationFlag& stop)
 {
-  const ClusterMatches found =
-    MatchCluster(edges, images, cluster, options, std::numeric_limits<std::size_t>::max(), stop);
+  const ClusterMatches found = MatchCluster(
+    edges, images, cluster, options.matching, std::numeric_limits<std::size_t>::max(), stop);
   EdgeView view;
   view.name = cluster.name;
   view.imageFile = cluster.reference;
@@ -88,6 +122,19 @@ EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& imag
     throw TooFewFeatures("Cluster '" + cluster.name +
       "' has fewer than three features in its reference image " + cluster.reference + ".");
   }
+  if (options.patches.isOn)
+  {
+    std::vector<CalibratedImage> partners;
+    for (const int other : found.otherImages)
+    {
+      partners.push_back(images[other]);
+    }
+    const auto seeds =
+      OpenEdges(found.reference.edges, found.matches, options.patches.seedStep);
+    AddPatches(FindPatches(view, seeds, images[found.referenceImage], partners, photographs,
+                 options.patches, stop),
+      view);
+  }
   return view;
 }
 
@@ -96,7 +143,8 @@ EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& im
 {
   options.Check();
   EdgeStore edges(scene, options.edges);
-  return FindFeatures(edges, images, cluster, options.matching, stop);
+  PhotographStore photographs(scene.ImagesFolder());
+  return FindFeatures(edges, photographs, images, cluster, options, stop);
 }
 
 }

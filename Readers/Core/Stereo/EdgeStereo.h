@@ -7,6 +7,8 @@
 #include "Common/View.h"
 #include "Edges/EdgeTokens.h"
 #include "Matching/TrinocularMatcher.h"
+#include "Patches/PatchOptions.h"
+#include "Patches/PhotographStore.h"
 #include "Scene/Scene.h"
 #include "Stereo/EdgeStore.h"
 
@@ -26,6 +28,7 @@ struct EdgeStereoOptions
   EdgeTokenOptions edges;
   MatcherOptions matching; ///< an infinite maximumDisparity is replaced by the greatest that the
                            ///< cameras of a triplet see in common
+  PatchOptions patches;    ///< features beside those of edges
 
   /// Throws Error when a field is out of its range.
   void Check() const;
@@ -37,12 +40,16 @@ struct EdgeStereoOptions
 /// Edge positions are freed of the lens's distortion, images are not resampled: the view's camera
 /// is the pinhole of the reference.
 ///
+/// Beyond the paper, patches become features where the edges leave gaps, see FindPatches. They follow
+/// the edges', are in no chain (-1) and have no direction (0).
+///
 /// `images` is what ReadSceneImages returned, or has refined cameras.
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
 /// than its camera's, an unknown image, a triplet without overlap; TooFewFeatures.
 /// Throws Aborted when the flag is set, at the next image.
-EdgeView FindFeatures(EdgeStore& edges, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, const MatcherOptions& options,
+EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
+  const std::vector<CalibratedImage>& images, const Cluster& cluster,
+  const EdgeStereoOptions& options,
   const CancellationFlag& stop = NeverCancelled);
 
 /// The same for a single cluster, whose images are loaded from the scene's folder.

@@ -40,9 +40,11 @@ public:
     this->Cluster.triplets = { { "l.png", "c.png", "r.png" }, { "u.png", "c.png", "d.png" } };
   }
 
-  EdgeView Find() const
+  EdgeView Find(bool hasPatches = false) const
   {
-    return FindFeatures(this->Scene, this->Images, this->Cluster, EdgeStereoOptions());
+    EdgeStereoOptions options;
+    options.patches.isOn = hasPatches;
+    return FindFeatures(this->Scene, this->Images, this->Cluster, options);
   }
 
   // What Find() says is wrong.
@@ -118,6 +120,25 @@ TEST(EdgeStereo, FeaturesOfACross)
   EXPECT_EQ(view.name, "cross");
   EXPECT_EQ(view.imageFile, "c.png");
   ExpectOnThePlane(view);
+}
+
+TEST(EdgeStereo, PatchesFollowTheEdges)
+{
+  const SquaresScene scene;
+  const EdgeView edges = scene.Find(), all = scene.Find(true);
+  const std::size_t count = edges.points.size();
+  ASSERT_GT(all.points.size(), count);
+  EXPECT_EQ(all.colors.size(), all.points.size());
+  EXPECT_TRUE(std::equal(edges.points.begin(), edges.points.end(), all.points.begin()));
+  EXPECT_EQ(all.chains, edges.chains);
+  ExpectOnThePlane(all);
+  for (std::size_t i = count; i < all.points.size(); ++i)
+  {
+    EXPECT_EQ(all.chainIds[i], -1);
+    EXPECT_EQ(all.edgeDirections[i], Eigen::Vector3d::Zero());
+    EXPECT_GE(all.matchingCosts[i], 0);
+    EXPECT_LE(all.matchingCosts[i], 1 - PatchOptions().leastCorrelation);
+  }
 }
 
 TEST(EdgeStereo, ChainsFollowTheEdges)

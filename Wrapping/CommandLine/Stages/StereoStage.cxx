@@ -46,6 +46,10 @@ void StereoStage::AddOptions(CLI::App& command)
     ->default_str("auto")
     ->group("Stereo");
   this->WrongImages.AddTo(command, "Stereo");
+  command
+    .add_flag("--no-patches", this->NoPatches,
+      "Features are edges alone, as in the paper: no patches of the images where edges leave gaps")
+    ->group("Stereo");
   this->Choice.AddOptions(command, "Stereo");
 }
 
@@ -63,6 +67,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetFileName(scene);
   stereo->SetMinimumDepth(this->MinimumDepth);
   stereo->SetMaximumDepth(this->MaximumDepth);
+  stereo->SetPatches(!this->NoPatches);
   using Reader = vtkEdgeStereoReader;
   stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::IN_SMALL_SCENES
       : this->EveryImage == "off"                  ? Reader::NEVER

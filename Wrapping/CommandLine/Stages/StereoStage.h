@@ -35,6 +35,7 @@ private:
   std::string EveryImage = "auto";    // empty: on
   std::string RefineCameras = "auto"; // empty: on
   WrongImagesOption WrongImages;
+  bool NoPatches = false;
   ClusterChoice Choice;
 };
 
