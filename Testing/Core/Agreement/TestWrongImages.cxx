@@ -169,13 +169,13 @@ TEST(SceneFeatures, PoorClustersAreNamedAndLeftOut)
   EdgeStore edges(checked.scene, EdgeTokenOptions());
   std::vector<std::string> warnings;
   const auto views = FindSceneFeatures(
-    checked.scene, images, edges, 2, MatcherOptions(), SerialFor, Progress(), warnings);
+    checked.scene, images, edges, 2, EdgeStereoOptions(), SerialFor, Progress(), warnings);
   ASSERT_EQ(views.size(), 1u);
   EXPECT_EQ(views[0].name, "good");
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("blank (fewer than three features)"), std::string::npos);
   checked.scene.clusters.resize(1);
-  EXPECT_THROW(FindSceneFeatures(checked.scene, images, edges, 1, MatcherOptions(), SerialFor,
+  EXPECT_THROW(FindSceneFeatures(checked.scene, images, edges, 1, EdgeStereoOptions(), SerialFor,
                  Progress(), warnings),
     TooFewFeatures);
 }
@@ -186,13 +186,14 @@ TEST(SceneFeatures, PoorIsWhatHasMuchLessThanUsual)
   for (EdgeView& view : views)
   {
     view.points.resize(300);
+    view.chainIds.resize(300);
     view.tokens = 1000;
   }
-  views[2].points.resize(19); // of 20 that are a fifteenth
+  views[2].chainIds.resize(19); // no patch counts; of 20 that are a fifteenth
   EXPECT_EQ(FindPoorViews(views), (std::vector<char>{ 0, 0, 1, 0, 0 }));
-  views[2].points.resize(21);
+  views[2].chainIds.resize(21);
   EXPECT_EQ(FindPoorViews(views), (std::vector<char>{ 0, 0, 0, 0, 0 }));
-  views[2].points.resize(4);
+  views[2].chainIds.resize(4);
   views.resize(3); // too few to tell what is usual
   EXPECT_EQ(FindPoorViews(views), (std::vector<char>{ 0, 0, 0 }));
   EXPECT_TRUE(FindPoorViews({}).empty());
