@@ -38,7 +38,7 @@ vtkStandardNewMacro(vtkBisectionContourFilter);
 namespace
 {
 
-/// Any function as a field: it can only be asked point by point.
+/// Any function as a field, which is evaluated point by point.
 class FunctionField : public freespace::ContourField
 {
 public:
@@ -130,8 +130,8 @@ void MarkForeignPoints(vtkPolyData* output, const freespace::ContourSize& size)
   output->GetPointData()->AddArray(ghosts);
 }
 
-/// Makes the corners cells. What cells need beside is made last: the core has let go of its memory
-/// then.
+/// Converts the corners to cells. Their further arrays are allocated last, when the core has released its
+/// memory.
 void SetTriangles(vtkPolyData* output, vtkTypeInt32Array* corners)
 {
   const vtkIdType n = corners->GetNumberOfValues() / 3;
@@ -146,7 +146,7 @@ void SetTriangles(vtkPolyData* output, vtkTypeInt32Array* corners)
   output->SetPolys(cells);
 }
 
-/// What was chosen, as field data.
+/// The lattice, as field data.
 void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int cells)
 {
   const freespace::RegionOfInterest& region = core.FeatureRegion();
@@ -160,7 +160,7 @@ void TellLattice(vtkPolyData* output, const freespace::FreespaceUnion& core, int
   output->GetFieldData()->AddArray(lattice);
 }
 
-/// Marks the triangles that have a feature beside them: within somewhat more than half of the features' distance,
+/// Marks the triangles that are close to a feature: within slightly more than half the distance of features,
 /// and within two cells.
 void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, double cell)
 {
@@ -236,7 +236,7 @@ int vtkBisectionContourFilter::RequestInformation(
   return 1;
 }
 
-/// What is to be contoured, and how.
+/// The field to be contoured, and the options.
 struct vtkBisectionContourFilter::Task
 {
   std::shared_ptr<const freespace::FreespaceUnion> core;
@@ -252,7 +252,7 @@ struct vtkBisectionContourFilter::Task
   }
 };
 
-/// False, with an error, when there is nothing to contour.
+/// Returns false, with an error, if there is nothing to contour.
 bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& progress)
 {
   if (!this->ImplicitFunction)

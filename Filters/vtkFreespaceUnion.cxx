@@ -34,20 +34,20 @@ struct vtkFreespaceUnion::Internals
   vtkMTimeType BuildTime = 0;    ///< MTime that Core was built for
   std::recursive_mutex Building; ///< recursive for observers that ask while it is built
   bool IsBuilding = false;
-  /// The own MTime that Core was built for: what evaluations look at, which come by the million.
+  /// The own MTime that Core was built for, which the millions of evaluations check.
   std::atomic<vtkMTimeType> OwnBuildTime{ 0 };
 };
 
 namespace
 {
 
-// Of how building is divided between the maps, which may come from a pipeline, and the core.
+// The share of the maps, which may come from a pipeline, in building; the rest is the core.
 constexpr double MapsShare = 0.5;
 
-// And of a batch of queries, between building and asking.
+// The share of building in a batch of queries.
 constexpr double BuildingShare = 0.5;
 
-/// Brings an algorithm up to date, which stops when a progress wants to.
+/// Updates an algorithm, which is aborted when the progress stops it.
 class WatchedUpdate
 {
 public:

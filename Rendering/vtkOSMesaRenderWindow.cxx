@@ -58,7 +58,7 @@ struct vtkOSMesaRenderWindow::InternalState
   std::vector<unsigned char> pixels; // the default framebuffer
   int width = 0;                     // of pixels
   int height = 0;
-  bool failed = false; // told once
+  bool failed = false; // reported once
 };
 
 namespace

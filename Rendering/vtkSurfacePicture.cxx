@@ -192,7 +192,7 @@ void vtkSurfacePicture::Stage::MakeWindow()
   }
 }
 
-// Without a mapper of its own the surface is grey and lit.
+// Without a given mapper the surface is grey and lit.
 void vtkSurfacePicture::Stage::ShowSurface(vtkPolyData* surface, vtkPolyDataMapper* givenMapper)
 {
   vtkPolyDataMapper* mapper = givenMapper ? givenMapper : this->greyMapper.Get();

@@ -42,7 +42,7 @@ void SetTexture(const TextureAtlas& atlas, vtkImageData* texture)
   }
 }
 
-// The atlas is asked for the colours of points, so that they are those of the texture.
+// The colours of points are sampled from the atlas, so that they are those of the texture.
 void AddColors(const TextureAtlas& atlas, vtkPolyData* surface)
 {
   vtkNew<vtkUnsignedCharArray> colors;
@@ -135,7 +135,7 @@ int vtkTextureBaker::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkTextureBaker::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  // The size of the texture is known only when it is made: whatever is asked for is given whole.
+  // The size of the texture is known only after baking: every request is served with all of it.
   const int nothing[6] = { 0, -1, 0, -1, 0, -1 };
   outputVector->GetInformationObject(1)->Set(
     vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), nothing, 6);

@@ -9,8 +9,8 @@ class vtkWriter;
 namespace freespace
 {
 
-/// Does a writer's work, and returns the error code that lets its Write() return 1 or 0. What the work throws
-/// becomes the writer's error; being asked to stop is told by the code alone.
+/// Runs a writer's work, and returns the error code that lets its Write() return 1 or 0. An exception of the work
+/// becomes the writer's error; an abort sets the code only.
 unsigned long RunWriter(vtkWriter* writer, const std::function<void()>& write);
 
 }

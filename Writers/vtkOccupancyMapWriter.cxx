@@ -167,7 +167,7 @@ void FillTree(const Lattice& lattice, const FreespaceUnion& phi, const LookedAt&
   progress(1.0);
 }
 
-// Makes cells of one kind a larger one, and tells the others what they hold.
+// Prunes equal cells to a larger one, and updates the values of the others.
 void Prune(octomap::OcTree& tree, octomap::OcTreeNode* node, const CancellationFlag& stop)
 {
   ThrowIfCancelled(stop);
@@ -188,7 +188,7 @@ void Prune(octomap::OcTree& tree, octomap::OcTreeNode* node, const CancellationF
   }
 }
 
-/// A file that tells how much of it is written, and stops there on request.
+/// A file that reports how much is written, and stops on request.
 class WatchedFile : public std::filebuf
 {
 public:

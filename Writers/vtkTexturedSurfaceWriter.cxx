@@ -71,7 +71,7 @@ void WritePicture(vtkImageData* texture, const freespace::AtomicOutput& target)
 
 void WriteOBJ(vtkPolyData* surface, vtkImageData* texture, const freespace::AtomicOutput& target)
 {
-  // VTK's writer wants a texture to refer to, and writes it: the true one comes after.
+  // VTK's writer requires a texture to refer to, and writes it; the true one follows.
   vtkNew<vtkImageData> onePixel;
   onePixel->SetDimensions(1, 1, 1);
   onePixel->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

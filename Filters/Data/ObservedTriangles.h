@@ -16,16 +16,16 @@ struct TriangleSelection
   bool crumbs = false;       ///< also the components that DropCrumbs drops
 };
 
-/// The name of the cell array that tells, by 1, which triangles of a contour have a feature beside them.
+/// The name of the cell array that is 1 for triangles of a contour that are close to a feature.
 extern VTKFREESPACEFILTERS_EXPORT const char* const SupportedName;
 
-/// Drops all triangles of a contour that neither are of a feature triangle (cell array Kind) nor have a feature
-/// beside them (Supported, where it is there), and the points that only they had. All other data stay. A
-/// surface without a Kind is left as it is.
+/// Drops all triangles of a contour that are neither on a feature triangle (cell array Kind) nor close to a
+/// feature (Supported, if present), and the points that only they use. All other data are kept. A surface
+/// without a Kind is unchanged.
 VTKFREESPACEFILTERS_EXPORT void KeepObserved(vtkPolyData* surface);
 
-/// Drops the connected components of a contour of which no triangle has a feature beside it, but never the
-/// largest. A surface without that array is left as it is.
+/// Drops the connected components of a contour without a triangle that is close to a feature, except the
+/// largest one. A surface without that array is unchanged.
 VTKFREESPACEFILTERS_EXPORT void DropCrumbs(vtkPolyData* surface);
 
 }

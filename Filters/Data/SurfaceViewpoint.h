@@ -13,16 +13,16 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// From where a surface shows itself well: a camera in its field data, as in a view's block. A .ply
-/// keeps it in a comment, so that a picture of the file alone is upright and shows what was seen.
+/// The viewpoint of a surface: a camera in its field data, as in a view's block. A .ply stores it in a
+/// comment, so that an image of the file alone is upright and shows the observed side.
 
-/// The surface's viewpoint; nothing where it has none, or one that is no camera.
+/// The surface's viewpoint; nothing if it has none or an invalid one.
 VTKFREESPACEFILTERS_EXPORT std::optional<Camera> ViewpointOf(vtkPolyData* surface);
 
-/// What a .ply says of the viewpoint, in one line; empty where the surface has none.
+/// The comment of a .ply for the viewpoint, in one line; empty if the surface has none.
 VTKFREESPACEFILTERS_EXPORT std::string ViewpointComment(vtkPolyData* surface);
 
-/// The viewpoint of such a comment; nothing where the comment tells of something else.
+/// The viewpoint of such a comment; nothing for any other comment.
 VTKFREESPACEFILTERS_EXPORT std::optional<Camera> ViewpointFromComment(const std::string& comment);
 
 }

@@ -44,7 +44,7 @@ void AddFieldArray(vtkDataObject* block, const char* name, const double* values,
   throw Error("View '" + block + "' has no array " + name + " of " + shape + ".");
 }
 
-// An array of the field data: so many values in all.
+// An array of the field data with this number of values.
 vtkDataArray* FieldArray(vtkFieldData* data, const char* name, int values, const std::string& block)
 {
   vtkDataArray* array = data->GetArray(name);
@@ -417,7 +417,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> WithNames(
         vtkNew<vtkStringArray> own;
         own->SetName("ImageFile");
         own->InsertNextValue(changed(file->GetValue(0)));
-        copy->GetFieldData()->AddArray(own); // in place of the shared one
+        copy->GetFieldData()->AddArray(own); // instead of the shared one
       }
       result->SetBlock(i, copy);
     }

@@ -15,8 +15,8 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// Views and disparity maps as blocks of a vtkMultiBlockDataSet, and back. The one place that knows
-/// the arrays in which they travel:
+/// Conversion of views and disparity maps to blocks of a vtkMultiBlockDataSet, and back. The only place
+/// that defines their arrays:
 ///
 /// | where     | name             | type       |
 /// |-----------|------------------|------------|
@@ -51,7 +51,7 @@ VTKFREESPACEFILTERS_EXPORT Camera CameraFromBlock(vtkDataObject* block, const st
 /// The view of a block. Throws Error, naming the block, when an array is missing or of a wrong shape.
 VTKFREESPACEFILTERS_EXPORT View ViewFromBlock(vtkPolyData* block, const std::string& name);
 
-/// The same with triangles and SourceView (its own index where the array is missing).
+/// The same with triangles and SourceView (the view's own index if the array is missing).
 VTKFREESPACEFILTERS_EXPORT DisparityMap MapFromBlock(
   vtkPolyData* block, const std::string& name, int ownIndex);
 

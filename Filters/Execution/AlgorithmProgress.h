@@ -21,8 +21,8 @@ inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
     });
 }
 
-/// For the catch (...) that ends a RequestData: empties the output, tells VTK what the core threw and
-/// gives the value to return. A stop on request is no error.
+/// For the catch (...) at the end of a RequestData: empties the output, reports the core's exception as a
+/// VTK error and returns the value to return. An abort is not an error.
 inline int AfterException(vtkAlgorithm* algorithm, vtkDataObject* output)
 {
   output->Initialize();

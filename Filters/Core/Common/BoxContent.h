@@ -5,7 +5,7 @@
 namespace freespace
 {
 
-/// What a closed box holds.
+/// The content of a closed box.
 enum class BoxContent
 {
   Free,

@@ -9,10 +9,10 @@
 namespace freespace
 {
 
-/// Set when a computation is to stop. Whoever works long looks at it now and then.
+/// Set to stop a computation. Long computations check it regularly.
 using CancellationFlag = std::atomic<bool>;
 
-/// For those that nobody can stop.
+/// A flag that is never set.
 inline const CancellationFlag NeverCancelled{ false };
 
 /// Throws Aborted when the flag is set.

@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// What the core throws on bad input: one sentence that names the file and what is wrong with it.
+/// Thrown by the core on invalid input: one sentence that names the file and the fault.
 class Error : public std::runtime_error
 {
 public:

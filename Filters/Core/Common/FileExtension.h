@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// What a file's name ends in, with its dot and in small letters: ".ply" of "Mesh.PLY".
+/// The extension of a file name, with its dot and in lower case: ".ply" of "Mesh.PLY".
 inline std::string LowerCaseExtension(const std::string& fileName)
 {
   std::string ending = std::filesystem::path(fileName).extension().string();

@@ -11,8 +11,8 @@
 namespace freespace
 {
 
-/// Of what the bodies of a parallel loop throw, that of the least index: the same for any number of
-/// threads.
+/// Of the exceptions that the bodies of a parallel loop throw, the one of the smallest index, so that
+/// it does not depend on the number of threads.
 class FirstFault
 {
 public:
@@ -22,10 +22,10 @@ public:
   {
   }
 
-  /// Whether a lesser index has thrown: what i does is of no use any more.
+  /// Whether a smaller index has thrown, so that i need not be processed.
   bool IsBefore(std::size_t i) const { return this->First < i; }
 
-  /// Calls body(i) and keeps what it throws.
+  /// Calls body(i) and stores its exception.
   template <typename Body>
   void Guard(std::size_t i, const Body& body)
   {
@@ -43,7 +43,7 @@ public:
     }
   }
 
-  /// Throws it on, if there was one, once the loop has ended.
+  /// Rethrows the exception, if any, after the loop.
   void Rethrow() const
   {
     if (this->First < this->Faults.size())
@@ -57,8 +57,8 @@ private:
   std::atomic<std::size_t> First;
 };
 
-/// Calls body(i) for each i in [0, count), perhaps on several threads. Where bodies throw, what the one
-/// of the least i threw is thrown on, the same for any number of threads; what comes after it may not be
+/// Calls body(i) for each i in [0, count), possibly on several threads. If bodies throw, the exception
+/// of the smallest i is rethrown, independent of the number of threads; later bodies may not have been
 /// called.
 template <typename Body>
 void ForEach(const ParallelFor& parallelFor, std::size_t count, const Body& body)

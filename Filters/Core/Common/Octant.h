@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// One of the eight octants of a box, in [0, 8): bit a of the octant tells whether it is the upper
+/// One of the eight octants of a box, in [0, 8): bit a of the octant is set for the upper
 /// half along axis a.
 inline Eigen::AlignedBox3d Octant(const Eigen::AlignedBox3d& box, int octant)
 {

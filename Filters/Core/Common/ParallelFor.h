@@ -8,10 +8,10 @@
 namespace freespace
 {
 
-/// Calls the body over ranges [begin, end) that together make [0, count), perhaps on several threads.
-/// The core does not know its threads: the VTK classes hand in vtkSMPTools (see SMPParallelFor.h).
-/// The body must not throw, and must write only what belongs to its own range, so that the result is
-/// the same for any number of threads.
+/// Calls the body for ranges [begin, end) that partition [0, count), possibly on several threads.
+/// The core does not create threads: the VTK classes pass vtkSMPTools (see SMPParallelFor.h).
+/// The body must not throw, and must write only data of its own range, so that the result does not
+/// depend on the number of threads.
 using ParallelFor = std::function<void(
   std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)>;
 

@@ -14,7 +14,7 @@ namespace freespace
 namespace
 {
 
-// Indices of the greatest values first; of equals, in their order.
+// Indices by descending value; equal values in their order.
 std::vector<std::size_t> GreatestFirst(const std::vector<double>& values)
 {
   std::vector<std::size_t> order(values.size());
@@ -32,7 +32,7 @@ void Add(std::atomic<double>& sum, double value)
   }
 }
 
-// Does the work on another thread while this one looks at the progress.
+// Runs the work on another thread while this one polls the progress.
 void WatchedWork(const Progress& progress, CancellationFlag& stop,
   const std::function<double()>& fraction, const std::function<void()>& work)
 {
@@ -106,7 +106,7 @@ void ParallelForWithProgress(const std::vector<double>& work, const ParallelFor&
     progress, stop, [&] { return done / all; },
     [&]
     {
-      // A parallel loop serves its indices in an order of its own: each of them takes what is next.
+      // The order of a parallel loop is unspecified: each of its indices takes the next item.
       parallelFor(work.size(),
         [&](std::size_t begin, std::size_t end)
         {

@@ -12,23 +12,23 @@
 namespace freespace
 {
 
-/// What a loop does for each i.
+/// The body of a loop.
 using CancellableBody = std::function<void(std::size_t i, const CancellationFlag& stop)>;
 
-/// Calls body(i, stop) for all i below count by the parallel loop, which another thread starts: the
-/// caller looks at the progress every 20 ms meanwhile, so that it moves, and can stop the work, however
-/// long a single body takes. Throws what the progress threw, or else what the bodies did, like ForEach; all
-/// bodies have ended then.
+/// Calls body(i, stop) for all i below count by the parallel loop, which another thread starts. The
+/// calling thread meanwhile reports progress every 20 ms and can stop the work, however long a single
+/// body takes. Rethrows the exception of the progress, or else that of the bodies, as ForEach does, after
+/// all bodies have ended.
 void ParallelForWithProgress(std::size_t count, const ParallelFor& parallelFor,
   const Progress& progress, const CancellableBody& body);
 
-/// The same for bodies of unequal size, of which the work, in any unit, is known before: the largest
-/// begin first, so that no thread is left alone with one at the end, and the progress moves with the
-/// work.
+/// The same for bodies of unequal cost, which is known in advance in any unit: the most expensive ones
+/// start first, so that none remains for a single thread at the end, and progress is proportional to the
+/// cost.
 void ParallelForWithProgress(const std::vector<double>& work, const ParallelFor& parallelFor,
   const Progress& progress, const CancellableBody& body);
 
-/// A single computation, watched in the same way; its progress does not move.
+/// A single computation that can be stopped; it reports no progress.
 void RunWithProgress(
   const Progress& progress, const std::function<void(const CancellationFlag& stop)>& body);
 

@@ -11,7 +11,7 @@ namespace freespace
 {
 
 /// Parses a decimal number, which must be the whole text: std::from_chars, which does not depend on
-/// the locale and rounds correctly, and which refuses what is out of the range of the type. A leading
+/// the locale and rounds correctly, and which rejects values out of the range of the type. A leading
 /// plus sign is allowed. Returns nothing for any other text.
 template <typename Value>
 std::optional<Value> ParseNumber(std::string_view text)

@@ -9,12 +9,12 @@
 namespace freespace
 {
 
-/// Tells how far a computation has come and lets the caller stop it. Call it from the thread that
-/// started the computation only.
+/// Reports the progress of a computation and lets the caller stop it. To be called only from the thread
+/// that started the computation.
 class Progress
 {
 public:
-  /// The function is given the fraction done, in [0, 1], and returns false to stop.
+  /// The function receives the fraction done, in [0, 1], and returns false to stop.
   using Function = std::function<bool(double)>;
 
   Progress() = default;

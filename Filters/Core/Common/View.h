@@ -20,11 +20,11 @@ struct View
   std::string imageFile; ///< the reference image, relative to the scene's `images`
   Camera camera;
   std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
-  std::vector<Eigen::Vector2d> imagePoints; ///< where the reference image sees them, pixels
+  std::vector<Eigen::Vector2d> imagePoints; ///< their positions in the reference image, pixels
   std::vector<std::array<int, 2>> edges;    ///< pairs of features that an image edge joins
 };
 
-/// What edge stereo knows about each feature of a view beside its place.
+/// Attributes of the features of a view from edge stereo.
 struct EdgeView : View
 {
   std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue in the reference image

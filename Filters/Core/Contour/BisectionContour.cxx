@@ -25,8 +25,8 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// Gives pages that hold nothing any more back to the system, where the C library does not do it by
-/// itself: the mesh grows into them.
+/// Returns unused pages to the system, where the C library does not do so by itself, before the mesh
+/// grows.
 void ReturnFreeMemory()
 {
 #ifdef __GLIBC__
@@ -71,7 +71,7 @@ private:
       place.firstTriangle = this->Triangles;
       if (place.isOwn)
       {
-        // A fan about a vertex of its own has two triangles more.
+        // A fan around an additional vertex has two more triangles.
         this->Vertices += place.NumberOfVertices();
         this->Triangles += place.block->NumberOfTriangles() + 2 * place.sharp.size();
         for (const JoinedFaces& joined : place.joined)
@@ -124,7 +124,7 @@ private:
       });
   }
 
-  /// Writes the mesh layer by layer, and lets go of what no later one needs.
+  /// Writes the mesh layer by layer, and releases the data that no later layer needs.
   void Write(const ContourArrays& arrays, const Progress& progress, const ParallelFor& parallelFor)
   {
     std::atomic<bool> torn(false);

@@ -14,7 +14,7 @@ namespace
 
 constexpr std::size_t pointsPerBox = 256;
 
-// Points that were seen before, told by their coordinates.
+// Points that occurred before, identified by their coordinates.
 class PointSet
 {
 public:

@@ -12,7 +12,7 @@ namespace freespace
 
 /// The distinct features of many views, in boxes of points that are near to each other, so that what a
 /// camera cannot see is passed over by the box. Views that come from structure from motion share their
-/// points: with a thousand views every point would else be looked at a thousand times for each view.
+/// points: with a thousand views every point would otherwise be processed a thousand times for each view.
 class FeatureCloud
 {
 public:

@@ -12,8 +12,8 @@ namespace freespace
 struct FeatureSupportOptions
 {
   double radius = 4.0;      ///< of the neighbourhood, pixels; > 0
-  double spacings = 0;      ///< when positive, the radius is so many times the mean distance
-                            ///< of the view's features instead: 2 takes in about 12 of them
+  double spacings = 0;      ///< if positive, the radius is this multiple of the mean distance of
+                            ///< the view's features instead: 2 covers about 12 of them
   int minimumNeighbors = 0; ///< that agree, the feature itself not counted; 0 keeps all:
                             ///< outliers are then left to OutlierRejection
   double disparityTolerance = 0.01; ///< two features agree when their disparities differ by no more

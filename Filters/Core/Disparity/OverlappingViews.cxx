@@ -55,7 +55,7 @@ std::vector<std::vector<int>> OverlappingViews(const std::vector<DisparityMap>& 
     reach.push_back(ReachOf(map));
     all.extend(reach.back());
   }
-  // A sweep along the longest axis: each is held against those that have begun and not ended.
+  // A sweep along the longest axis: each is compared with those that have begun and not ended.
   int axis = 0;
   all.sizes().maxCoeff(&axis);
   std::vector<int> order(maps.size()), open;

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Of the region's features, so many are asked for their distance.
+// Maximum number of the region's features whose distance is evaluated.
 constexpr std::size_t AskedFeatures = 20000;
 constexpr std::size_t Nearest = 1000; // this part of them may be wrong
 

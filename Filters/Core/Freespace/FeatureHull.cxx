@@ -188,7 +188,7 @@ Points FeatureHull::OuterPoints(const Points& points, const CancellationFlag& st
   {
     box.extend(p);
   }
-  // Few directions first, so that the many are asked of few points.
+  // Few directions first, so that the many are evaluated for few points only.
   return DropInner(DropInner(points, Tolerance(box), 5, stop), Tolerance(box), 16, stop);
 }
 

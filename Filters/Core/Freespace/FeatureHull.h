@@ -13,7 +13,7 @@
 namespace freespace
 {
 
-/// The convex hull of all features, pushed out by a margin: outside of it everything is free
+/// The convex hull of all features with a margin: outside it everything is free
 /// (section 2.2: "the reconstructed surface should not extend beyond the convex hull").
 ///
 /// It is kept as the intersection of half-spaces n.x <= h: the planes of the hull's facets, each
@@ -36,7 +36,7 @@ public:
 
   bool IsEmpty() const { return this->Normals.cols() == 0; }
 
-  /// Box of the pushed out hull; empty without points.
+  /// Bounding box of the hull with its margin; empty without points.
   const Eigen::AlignedBox3d& Bounds() const { return this->Box; }
 
   int NumberOfPlanes() const { return static_cast<int>(this->Normals.cols()); }

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// The number of views that the labels of a surface can tell apart.
+/// The number of views that labels of a surface can represent.
 constexpr std::size_t MostViews = 8191;
 
 /// Up to this number of views, evaluating all is faster than a query of the octree.

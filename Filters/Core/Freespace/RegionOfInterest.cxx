@@ -37,12 +37,12 @@ void RegionOptions::Check() const
 namespace
 {
 
-// Of features, evenly chosen; of other views that are asked for each.
+// Number of features, evenly selected, and of other views that are evaluated for each.
 constexpr std::size_t SampledFeatures = 40000;
 constexpr std::size_t FewestOfView = 50;
 constexpr std::size_t AskedViews = 64;
 
-// Fewer tell nothing about what is usual.
+// Fewer are no sample of what is usual.
 constexpr std::size_t FewFeatures = 100;
 
 // What no other view confirms is seen from elsewhere in its own cluster, at least at such an angle.

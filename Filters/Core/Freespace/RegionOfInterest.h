@@ -37,7 +37,7 @@ struct RegionOptions
   /// What lies around the body, by this share of its longest side, belongs to it; >= 0.
   double surroundings = 0.25;
 
-  /// All features are taken unless the region is so many times smaller than their box; >= 1.
+  /// All features are used unless the region is smaller than their box by this factor; >= 1.
   double leastGain = 1.5;
 
   /// Throws Error when a field is out of its range.

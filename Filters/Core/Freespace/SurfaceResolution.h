@@ -7,13 +7,13 @@
 namespace freespace
 {
 
-/// How fine a lattice has to be to show what the features tell.
+/// The resolution of the lattice that resolves the features.
 struct ResolutionOptions
 {
   /// Side of a cell, as a share of the distance of the features on the surface; > 0.
   double cell = 1.0;
 
-  /// And no less than so many pixels' footprints; > 0.
+  /// Lower bound, in footprints of a pixel; > 0.
   double pixels = 2;
 
   /// Cells along the longest side of the region; 2 <= fewest <= most.

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// So often is a view asked in all.
+// Maximum number of evaluations of a view in all.
 constexpr std::size_t Questions = 4000000;
 constexpr std::size_t MostOfView = 4000;
 

@@ -13,7 +13,7 @@
 namespace freespace
 {
 
-/// How often the union would be wrong beside features, for a number of views that must agree.
+/// The error rate of the union close to features, for a number of views that must agree.
 struct AgreementErrors
 {
   double eroded = 0;  ///< share of places a little behind a feature that would be free

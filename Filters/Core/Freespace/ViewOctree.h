@@ -19,7 +19,7 @@ class ViewOctree
 public:
   using Views = std::vector<std::unique_ptr<ViewFreespace>>;
 
-  /// What is asked about a view and a box.
+  /// Classifies a box by a view.
   using Question = std::function<BoxContent(const ViewFreespace&, const Eigen::AlignedBox3d&)>;
 
   /// Nodes that are free in `enough` views are not split, nor those on the deepest level. The

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Cells are told apart by so many bits of each coordinate; what lies beyond shares the last one.
+// Number of bits of a cell's coordinate; features beyond share the last cell.
 constexpr int Bits = 21;
 constexpr double MostCells = (1 << Bits) - 1;
 

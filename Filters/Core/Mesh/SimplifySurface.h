@@ -42,7 +42,7 @@ struct LabelledSurface
 /// stays within the bound.
 ///
 /// Borders, and edges between triangles with different labels, are kept. The surface keeps its
-/// topology, and gets no self-intersections if it had none: where it would, it is left as it was.
+/// topology, and no self-intersections arise: a collapse that would create one is skipped.
 /// The same for any number of threads.
 ///
 /// Throws Error when the triangles are not a 2-manifold, Aborted when the progress asks to stop.

@@ -151,7 +151,7 @@ private:
     const Kernel::Point_3 q[3] = { this->Place(b[0]), this->Place(b[1]), this->Place(b[2]) };
     if (CGAL::collinear(p[0], p[1], p[2]) || CGAL::collinear(q[0], q[1], q[2]))
     {
-      return false; // its own fault, told of for itself
+      return false; // reported separately
     }
     const Kernel::Triangle_3 triangleA(p[0], p[1], p[2]), triangleB(q[0], q[1], q[2]);
     switch (shared)

@@ -75,7 +75,7 @@ private:
   struct Footprint
   {
     bool isBehind;            ///< the box is behind the camera, or beside the raster
-    bool isAround;            ///< the box is too close to the camera to tell
+    bool isAround;            ///< the box is too close to the camera to decide
     bool isWithin;            ///< all of the image is on the raster
     double nearest, furthest; ///< depths
     int low[2], high[2];

@@ -24,7 +24,7 @@ public:
   /// Throws Aborted soon after the flag is set.
   explicit ViewFreespace(const DisparityMap& map, const CancellationFlag& stop = NeverCancelled);
 
-  /// What the view tells about a point.
+  /// The classification of a point by the view.
   struct Sample
   {
     int triangle = -1;  ///< of the map, on the point's viewing ray; -1: not claimed

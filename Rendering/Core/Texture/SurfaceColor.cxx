@@ -14,7 +14,7 @@ namespace freespace
 namespace
 {
 
-constexpr double LeastCosine = 0.05; // a photograph that looks along the surface tells nothing
+constexpr double LeastCosine = 0.05; // a photograph at grazing incidence is of no use
 
 SurfaceColor::Color Interpolate(const Photograph& photograph, const Eigen::Vector2d& pixel)
 {
@@ -135,7 +135,7 @@ double SurfaceColor::PixelSize(const Eigen::Vector3d& point, const Eigen::Vector
 }
 
 // The gains g for which the logarithms of g_i c_i and g_j c_j agree best in the least squares, over points
-// that the photographs i and j both see; weakly drawn towards 1, which fixes what no pair tells.
+// that the photographs i and j both see; a weak prior of 1 fixes what no pair determines.
 void SurfaceColor::Level(const TriangleMesh& mesh)
 {
   const std::size_t count = this->Photographs.size();

@@ -30,7 +30,7 @@ constexpr double anyhow = 0.1;
 struct Sight
 {
   double roll;
-  double spread; // of the roll, which is of no use along the line of sight
+  double spread; // of the roll, which is undetermined along the line of sight
 
   Sight(const Camera& camera, const Eigen::Vector3d& up)
   {

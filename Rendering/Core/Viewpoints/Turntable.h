@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// Cameras at equal angles around what the given ones look at, beginning near the first of them.
+/// Cameras at equal angles around the point that the given cameras look at, starting near the first.
 ///
 /// The middle is the point nearest to all optical axes, up is that of CommonUp.h, height and
 /// distance from the axis are the means of theirs, and the intrinsics are those of the first. With points, the

@@ -17,10 +17,10 @@ using Eigen::AlignedBox3d;
 namespace
 {
 
-/// Boxes that are followed on each level.
+/// Number of boxes that are refined on each level.
 constexpr std::size_t BoxesPerLevel = 1024;
 
-/// Of the last level, so many blocks are contoured.
+/// Number of blocks of the last level that are contoured.
 constexpr std::size_t BlocksTried = 512;
 
 /// On finer lattices a surface has four times the triangles for every halved cell.
@@ -28,7 +28,7 @@ constexpr int CellsTried = 256;
 
 using ScopedRange = std::pair<CellRange, FieldScope>;
 
-/// Some of the boxes, evenly chosen.
+/// An even selection of the boxes.
 std::vector<ScopedRange> Thin(std::vector<ScopedRange> boxes, std::size_t wanted, double& weight)
 {
   const std::size_t count = boxes.size();
@@ -98,7 +98,7 @@ public:
     }
     boxes = Thin(std::move(boxes), BlocksTried, weight);
     CrossingOptions rough;
-    rough.tolerance = 0.5; // where they are does not matter here
+    rough.tolerance = 0.5; // positions do not matter here
     rough.exact = false;
     double triangles = 0.0;
     for (const auto& [range, scope] : boxes)

@@ -11,7 +11,7 @@
 namespace freespace
 {
 
-/// What made a piece of the surface.
+/// The origin of a part of the surface.
 enum class SurfaceKind : unsigned char
 {
   Feature = 0, ///< a triangle of a view's disparity map
@@ -20,7 +20,7 @@ enum class SurfaceKind : unsigned char
   Hull = 2  ///< the convex hull of the features, or the bounds of the lattice
 };
 
-/// What a point of the surface is.
+/// The label of a point of the surface.
 struct SurfaceLabel
 {
   int view = -1; ///< the view that carved it, below 8192; -1: none, it lies on the hull

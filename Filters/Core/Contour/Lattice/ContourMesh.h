@@ -34,7 +34,7 @@ struct ContourSize
 /// Provides the arrays when their sizes are known, so that no copy of a large mesh is made.
 using AllocateContour = std::function<ContourArrays(const ContourSize& size)>;
 
-/// A mesh of its own, for callers without arrays.
+/// A mesh with its own memory, for callers without arrays.
 struct ContourMesh
 {
   std::vector<Eigen::Vector3d> points;

@@ -16,10 +16,10 @@ namespace
 /// Cells along the side of a region: what one thread does at a time.
 constexpr int RegionSize = 4 * ContourBlock::Size;
 
-/// Up to so many cells, regions are few enough to be found without an estimate before.
+/// Up to this number of cells, regions are few enough to be found without an estimate.
 constexpr int QuicklyDescended = 1536;
 
-/// So much is done between two looks at the progress.
+/// The number of steps between two reports of progress.
 constexpr std::size_t RegionsAtATime = 16;
 constexpr std::size_t RangesAtATime = 1024;
 
@@ -108,7 +108,7 @@ void ContourOctree::FindRegions(const Progress& progress)
   {
     this->CheckEstimate(progress);
   }
-  // Layer by layer along the longest side, so that what was written can soon be let go.
+  // Layer by layer along the longest side, so that written data can be released early.
   const auto& cells = this->lattice.cells;
   const auto height = [axis = std::max_element(cells.begin(), cells.end()) - cells.begin()](
                         const Region& region) { return region.range.low[axis] / RegionSize; };
@@ -180,7 +180,7 @@ void ContourOctree::FindBlocks(
       {
         for (std::size_t i = done + begin; i < done + end; ++i)
         {
-          // Only the caller's thread may look at the progress.
+          // Only the calling thread may report progress.
           this->RunRegion(this->regions[i], isThreadSafe ? Progress() : progress, fraction);
         }
       });

@@ -14,7 +14,7 @@ struct ContourOptions
   double tolerance = 1e-3; ///< of the bisection, as a fraction of a cell; in (0, 0.5]
   double clearance = 0.01; ///< vertices keep so far from the lattice's points, as a fraction of a
                            ///< cell, lest triangles vanish; in (0, 0.25]
-  bool exact = true;       ///< take crossings from the field where it knows them, see
+  bool exact = true;       ///< use crossings of the field where it provides them, see
                            ///< ContourField::Crossing; the tolerance is for all others
   bool sharp = true;       ///< rebuild sharp edges and corners from the normals at the crossings
   double sharpAngle =
