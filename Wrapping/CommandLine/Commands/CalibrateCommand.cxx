@@ -42,7 +42,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("MODEL");
   command
     .add_option("--coefficients", settings.coefficients,
-      "At most so many coefficients of distortion: k1 k2 p1 p2 k3")
+      "Maximum number of distortion coefficients: k1 k2 p1 p2 k3")
     ->check(CLI::IsMember({ 0, 1, 2, 4, 5 }))
     ->capture_default_str();
   command.add_flag("--text", settings.text, "Write .txt rather than .bin files");

@@ -68,7 +68,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
     ->type_name("MAP.bt");
   command
     ->add_option("--resolution", settings->resolution,
-      "Side of the smallest cells in the scene's unit (0: the longest side by 128)")
+      "Side of the smallest cells in the scene's unit (0: 1/128 of the longest side)")
     ->check(NonNegative())
     ->capture_default_str();
   settings->freeSpace.AddTo(*command);

@@ -95,22 +95,21 @@ void AddOptions(CLI::App& command, Settings& settings)
   settings.azimuth =
     command
       .add_option("--azimuth", settings.look.azimuth,
-        "Look at the whole from here, degrees around z, from x towards y; so it is "
-        "done anyway where the surface knows no viewpoint, as a .ply or .vtp does "
-        "that this program wrote")
+        "Azimuth of the viewpoint, degrees around z, from x towards y; default if the "
+        "surface has no stored viewpoint, which .ply and .vtp of this program "
+        "have")
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
   settings.elevation = command
                          .add_option("--elevation", settings.look.elevation,
-                           "The same, degrees above the plane of x and y")
+                           "Elevation of the viewpoint, degrees above the xy plane")
                          ->check(CLI::Range(-90.0, 90.0))
                          ->capture_default_str();
   addWithoutCamera(settings.azimuth);
   addWithoutCamera(settings.elevation);
   command.add_flag("--observed", settings.observed,
-    "Leave out what no camera saw, the hull and silhouette walls; the surface must be a .vtp, "
-    "which "
-    "alone tells what its triangles are");
+    "Omit what no view observed, the hull and silhouette walls; the surface must be a .vtp, "
+    "which has the required arrays");
 }
 
 vtkSmartPointer<vtkPolyData> FindView(

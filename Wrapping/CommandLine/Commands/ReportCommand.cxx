@@ -76,18 +76,18 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("SCENE.json");
   command
     .add_option("-o,--output", settings.folder,
-      "The folder for the page, index.html, and for all that the run makes")
+      "The folder for the page, index.html, and all results")
     ->required()
     ->type_name("DIR");
   command
     .add_option("--truth", settings.truth,
-      "The true surface to compare with; where it is not given, truth/surface.ply beside the "
-      "scene, if there is one")
+      "The true surface to compare with; default: truth/surface.ply beside the scene, if it "
+      "exists")
     ->type_name("SURFACE.ply")
     ->group("Page");
   command
     .add_option("--viewer-triangles", settings.viewerTriangles,
-      "The page's model is simplified to at most so many triangles")
+      "Maximum number of triangles of the page's 3D model")
     ->check(CLI::Range(1000, 400000))
     ->capture_default_str()
     ->group("Page");
@@ -383,7 +383,7 @@ void AddReportCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command = program.add_subcommand(
-    "report", "Reconstruct a scene, and tell of it in one page that needs no network");
+    "report", "Reconstruct a scene and write a report, one page that needs no network");
   AddOptions(*command, *settings);
   command->footer("What an earlier run left in DIR is taken up where nothing that it was made from "
                   "has changed.\n\nExamples:\n"

@@ -58,7 +58,7 @@ void AddStereoCommand(CLI::App& program, Session& session)
     ->type_name("FEATURES.vtm");
   command
     ->add_option("--overlay", settings->overlay,
-      "Write each reference picture with its features over it, coloured by disparity")
+      "Write each reference image with its features drawn over it, coloured by disparity")
     ->type_name("FOLDER");
   settings->stereo.AddOptions(*command);
   command->footer("Example:\n  freespace stereo scene.json -o features.vtm --overlay pictures");

@@ -67,7 +67,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->required()
     ->type_name("OUT");
   auto* from = command.add_option_group(
-    "viewpoint", "Where to look from; otherwise from near the cameras at the whole");
+    "viewpoint", "The viewpoint; default: close to the cameras, with all of the surface in sight");
   from->add_option("--view", settings.view, "The camera of this image of the scene")
     ->type_name("NAME");
   from->add_option("--model", settings.model, "Each camera of this COLMAP model")

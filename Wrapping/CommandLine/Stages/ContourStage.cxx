@@ -50,46 +50,44 @@ void ContourStage::AddOptions(CLI::App& command)
   this->Union.AddTo(command, "Surface");
   command
     .add_option("--cells", this->Cells,
-      "Lattice cells along the longest side; auto: as many as show what the features tell, within "
-      "the memory limit")
+      "Number of lattice cells along the longest side; auto: as many as resolve the features, "
+      "within the memory limit")
     ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 65536))
     ->type_name("auto|INT")
     ->capture_default_str()
     ->group("Surface");
   command
     .add_option("--memory-limit", this->MemoryLimit,
-      "Memory that the surface and its making may take, MiB; 0: no limit; otherwise three quarters "
-      "of what the machine has")
+      "Limit of the memory for the surface and its computation, MiB; 0: no limit; default: three "
+      "quarters of the memory of the machine")
     ->check(NonNegative())
     ->group("Surface");
   command
     .add_flag("--no-sharp", this->NotSharp,
-      "Do not rebuild sharp edges and corners between the lattice's vertices")
+      "Do not reconstruct sharp edges and corners within lattice cells")
     ->group("Surface");
   command
     .add_flag("--no-fit", this->NotFitted,
-      "Leave the surface's vertices where the union of the free spaces has them: do not smooth it "
-      "and "
-      "fit it to all features")
+      "Keep the vertices on the boundary of the free space: do not smooth the surface and fit it to "
+      "the features of all views")
     ->group("Surface");
   command
     .add_option("--simplify", this->Simplify,
-      "Leave out vertices where the surface is flat; it moves by this length at most; 0: none")
+      "Decimate the surface within this distance; 0: do not")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Surface");
   command
     .add_option("--crumbs", this->Crumbs,
-      "Pieces apart from the rest that no feature supports: drop or keep; they are kept where the "
-      "surface is written a piece at a time")
+      "Connected components without supporting features: drop or keep; they are kept if the "
+      "surface is written in pieces")
     ->check(CLI::IsMember({ "drop", "keep" }))
     ->capture_default_str()
     ->group("Surface");
   command
     .add_flag("--observed", this->Observed,
-      "Keep only what was seen: an open surface without the hull and the silhouette walls, but "
-      "with "
-      "what has features beside it")
+      "Keep only observed triangles: an open surface without the hull and the silhouette walls, "
+      "except where features are close")
     ->group("Surface");
 }
 

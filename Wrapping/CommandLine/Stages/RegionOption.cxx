@@ -37,9 +37,9 @@ void RegionOption::AddTo(CLI::App& command, const std::string& group)
 {
   command
     .add_option("--region", this->Region,
-      "What is reconstructed: the hull and the lattice are those of the features in the box "
-      "x0,x1,y0,y1,z0,z1, of all, or (auto) without the few that lie far off; those beyond still "
-      "carve")
+      "Region of interest, whose features define the hull and the lattice: the box "
+      "x0,x1,y0,y1,z0,z1, all, or (auto) all without distant ones; features beyond still claim "
+      "free space")
     ->check(CLI::Validator(Fault, ""))
     ->type_name("auto|all|BOX")
     ->capture_default_str()

@@ -25,14 +25,14 @@ void SparseStage::AddOptions(CLI::App& command)
     ->group("Structure-from-motion model");
   command
     .add_option("--min-angle", this->MinimumAngle,
-      "The widest angle between two rays to a point must be so large, degrees; the wider half of "
-      "the points counts anyway")
+      "Minimum of the largest angle between two rays to a point, degrees; the half of the points "
+      "with the larger angles is always kept")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
   command
     .add_option("--min-support", this->SupportNeighbors,
-      "Of the dozen features about one so many must be about as far away; 0 keeps all")
+      "Minimum number of the 12 nearest features with a similar depth; 0 keeps all")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");

@@ -29,18 +29,16 @@ void StereoStage::AddOptions(CLI::App& command)
     ->group("Stereo");
   command
     .add_option("--every-image", this->EveryImage,
-      "Every image of a cluster is a view (on), which sees more and takes up to three times as "
-      "long, or its middle one alone (off); auto: on for clusters of 15 images in all or fewer")
+      "Use every image of a cluster as a view (on), which observes more and takes up to three "
+      "times as long, or only its reference (off); auto: on for up to 15 images in all")
     ->check(CLI::IsMember({ "auto", "on", "off" }))
     ->expected(0, 1)
     ->default_str("auto")
     ->group("Stereo");
   command
     .add_option("--refine-cameras", this->RefineCameras,
-      "The edges of the images correct the cameras' poses by the fraction of a pixel that these "
-      "are "
-      "off: on, off, or auto, which is on in scenes of up to 200 images; cameras that fit stay as "
-      "they are")
+      "Refine the camera poses by the edges of the images: on, off, or auto, which is on in scenes "
+      "of up to 200 images; accurate poses are unchanged")
     ->check(CLI::IsMember({ "auto", "on", "off" }))
     ->expected(0, 1)
     ->default_str("auto")

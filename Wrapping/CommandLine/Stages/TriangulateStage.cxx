@@ -41,46 +41,45 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->group("Disparity maps");
   command
     .add_option("--support", this->SupportNeighbors,
-      "Neighbours that must agree with a feature for it to count; 0 keeps all")
+      "Minimum number of features in the neighbourhood with a similar depth; 0 keeps all")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--tolerance", this->Tolerance,
-      "How far another view's feature may stick out of the free space, fraction of its depth")
+      "Tolerance of the minimum disparity constraint, as a fraction of the depth")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--neighbors", this->SupportingNeighbors,
-      "Of a feature's six nearest ones so many must agree with it, or it is an outlier; 0 keeps "
-      "all")
+      "Minimum number of the six nearest features with a similar depth; a feature with fewer is an "
+      "outlier; 0 keeps all")
     ->check(CLI::Range(0, 6))
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--see-through", this->SeeThroughViews,
-      "A feature that so many other views see through is an outlier; 0: none is")
+      "A feature in the free space of this number of other views is an outlier; 0: none is")
     ->check(CLI::Range(0, 1000))
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--violating", this->ViolatingFeatures,
-      "A triangle that so many features of other views violate is wrong, and with it the feature "
-      "that "
-      "it goes back to; 0: none is")
+      "A triangle that this number of features of other views violate is wrong, and its farthest "
+      "corner an outlier; 0: none is")
     ->check(CLI::Range(0, 1000))
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--longest-edge", this->LongestEdge,
-      "Triangles with a longer edge in the image carve nothing, pixels; 0: no limit")
+      "Maximum edge length of a triangle in the image that claims free space, pixels; 0: no limit")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Disparity maps");
   command
     .add_option("--depth-ratio", this->GreatestDepthRatio,
-      "Triangles over a greater ratio of depths carve nothing; 0: no limit")
+      "Maximum ratio of the depths of a triangle that claims free space; 0: no limit")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Disparity maps");
