@@ -75,6 +75,7 @@ std::vector<std::string> FilesOf(const freespace::Scene& scene)
       for (const std::string& image : triplet)
       {
         files.insert(scene.ImagePath(image));
+        files.insert(scene.MaskPath(image));
       }
     }
   }

@@ -6,6 +6,8 @@
 #include "Common/Error.h"
 #include "Scene/SceneClusters.h"
 
+#include <filesystem>
+
 namespace freespace
 {
 
@@ -34,6 +36,35 @@ void LeaveOut(const std::set<std::string>& names, CheckedScene& checked)
   }
 }
 
+// Tells which photographs have no mask where the scene has masks. Throws Error when none has.
+void CheckMasks(const Scene& scene, const SparseModel& model, std::vector<std::string>& warnings)
+{
+  std::vector<std::string> missing;
+  std::size_t photographs = 0;
+  for (const SparseImage& image : model.images)
+  {
+    if (!scene.masks.empty() && std::filesystem::exists(scene.ImagePath(image.name)))
+    {
+      ++photographs;
+      if (!std::filesystem::exists(scene.MaskPath(image.name)))
+      {
+        missing.push_back(image.name);
+      }
+    }
+  }
+  if (missing.empty())
+  {
+    return;
+  }
+  if (missing.size() == photographs)
+  {
+    throw Error("No photograph of the scene " + scene.file + " has a mask: there is no " +
+      scene.MaskPath(missing.front()) + ".");
+  }
+  warnings.push_back(std::to_string(missing.size()) + " of " + std::to_string(photographs) +
+    " photographs have no mask and are used whole: " + Joined(missing));
+}
+
 }
 
 CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptions& matching,
@@ -43,6 +74,7 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
   CheckedScene checked;
   checked.given = scene;
   checked.model = ReadSceneModel(scene, &checked.scaled);
+  CheckMasks(scene, checked.model, checked.warnings);
   const std::size_t all = checked.model.images.size();
   const auto misprojected =
     check ? FindMisprojectedImages(checked.model) : std::vector<MisprojectedImage>();

@@ -75,7 +75,8 @@ std::string ScaleToPhotographs(const Scene& scene, SparseModel& model)
       continue;
     }
     const SparseCamera& given = camera->second;
-    const auto [known, isNew] = scaledIds.emplace(std::tuple(given.id, (*size)[0], (*size)[1]), next);
+    const auto [known, isNew] =
+      scaledIds.emplace(std::tuple(given.id, (*size)[0], (*size)[1]), next);
     if (isNew)
     {
       model.cameras.push_back(ScaledCamera(given, (*size)[0], (*size)[1]));
@@ -97,7 +98,8 @@ std::string ScaleToPhotographs(const Scene& scene, SparseModel& model)
     return "";
   }
   char factor[80];
-  std::snprintf(factor, sizeof(factor), most > 1.001 * least ? "%.4g to %.4g" : "%.4g", least, most);
+  std::snprintf(
+    factor, sizeof(factor), most > 1.001 * least ? "%.4g to %.4g" : "%.4g", least, most);
   return std::to_string(count) + " of " + std::to_string(model.images.size()) +
     " photographs have another size than their cameras, which are scaled by " + factor;
 }

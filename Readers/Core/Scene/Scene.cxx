@@ -353,6 +353,13 @@ std::string Scene::ModelFolder() const
   return Resolve(this->file, this->model);
 }
 
+std::string Scene::MaskPath(const std::string& image) const
+{
+  return this->masks.empty()
+    ? ""
+    : (fs::path(Resolve(this->file, this->masks)) / (image + ".png")).string();
+}
+
 std::string Scene::ImagePath(const std::string& image) const
 {
   return (fs::path(this->ImagesFolder()) / image).string();
@@ -372,11 +379,12 @@ Scene ReadScene(const std::string& path)
   }
   const Json json = ParseFile(file);
   const Node root(json, file);
-  root.ExpectObject({ "images", "model", "clusters", "board" });
+  root.ExpectObject({ "images", "model", "masks", "clusters", "board" });
   Scene scene;
   scene.file = file;
   scene.images = root.At("images").Text();
   scene.model = root.At("model").Text();
+  scene.masks = root.Has("masks") ? root.At("masks").Text() : "";
   if (root.Has("clusters"))
   {
     scene.clusters = ReadClusters(root.At("clusters"));
@@ -393,6 +401,10 @@ void WriteScene(const Scene& scene, const std::string& file)
   OrderedJson json;
   json["images"] = Utf8FromName(Rebase(scene.file, scene.images, file));
   json["model"] = Utf8FromName(Rebase(scene.file, scene.model, file));
+  if (!scene.masks.empty())
+  {
+    json["masks"] = Utf8FromName(Rebase(scene.file, scene.masks, file));
+  }
   for (const Cluster& cluster : scene.clusters)
   {
     json["clusters"].push_back(JsonFromCluster(cluster));

@@ -44,20 +44,23 @@ struct Board
 
 /// What a scene.json says:
 ///
-///     { "images": "images", "model": "sparse",
+///     { "images": "images", "model": "sparse", "masks": "masks",
 ///       "clusters": [ { "name": "cluster1", "reference": "c.jpg",
 ///                       "triplets": [["l.jpg", "c.jpg", "r.jpg"], ["u.jpg", "c.jpg", "d.jpg"]] }
 ///                       ],
 ///       "board": { "type": "charuco", "squares": [15, 15], "square_m": 0.03, "marker_m": 0.0225,
 ///                  "dictionary": "DICT_5X5_250" } }
 ///
-/// `images` and `model` are relative to the file. `clusters` and `board` may be left out. A
+/// `images` and `model` are relative to the file. So is `masks`, which may be left out: a folder with
+/// masks named after the image with .png behind, l.jpg.png, as COLMAP has them; what is black in a mask is
+/// ignored in the image. `clusters` and `board` may be left out. A
 /// chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
 struct Scene
 {
   std::string file;              ///< the scene.json
   std::string images;            ///< folder of the photographs as the file gives it
   std::string model;             ///< folder of the camera model as the file gives it
+  std::string masks;             ///< folder of the masks as the file gives it; empty: none
   std::vector<Cluster> clusters; ///< empty when the file has none: they are to be proposed
   std::optional<Board> board;
 
@@ -65,6 +68,9 @@ struct Scene
   std::string ImagesFolder() const;
   std::string ModelFolder() const;
   std::string ImagePath(const std::string& image) const;
+
+  /// The image's mask, which need not exist; empty where the scene has no masks.
+  std::string MaskPath(const std::string& image) const;
 };
 
 /// Reads a scene.json, or that of a folder. Of a folder with a model (FindSparseModel) and no scene.json it

@@ -87,8 +87,8 @@ std::string FindSparseModel(const std::string& path, std::string* told)
   {
     return path;
   }
-  const auto largest = std::max_element(found.begin(), found.end(),
-    [](const Found& a, const Found& b) { return a.size < b.size; });
+  const auto largest = std::max_element(
+    found.begin(), found.end(), [](const Found& a, const Found& b) { return a.size < b.size; });
   const std::string model = largest->folder.string();
   if (told)
   {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stereo/EdgeStore.h"
 
+#include "Edges/MaskedEdges.h"
 #include "Images/ImageFile.h"
+#include "Images/ImageMask.h"
 
 #include <opencv2/calib3d.hpp>
 
-#include <filesystem>
 #include <vector>
 
 namespace freespace
@@ -54,7 +55,7 @@ bool HaveSameLens(const CalibratedImage& a, const CalibratedImage& b)
 }
 
 EdgeStore::EdgeStore(const Scene& scene, const EdgeTokenOptions& options, std::size_t mostTokens)
-  : Images(scene.ImagesFolder())
+  : Source(scene)
   , Options(options)
   , MostTokens(mostTokens)
 {
@@ -81,9 +82,13 @@ std::shared_ptr<const EdgeChains> EdgeStore::Edges(const CalibratedImage& image)
   }
   if (!edges)
   {
-    const std::string file = (std::filesystem::path(this->Images) / image.file).string();
+    const int width = image.camera.width, height = image.camera.height;
     auto found = std::make_shared<EdgeChains>(
-      FindEdges(LoadImage(file, image.camera.width, image.camera.height), this->Options));
+      FindEdges(LoadImage(this->Source.ImagePath(image.file), width, height), this->Options));
+    if (const std::string mask = this->Source.MaskPath(image.file); !mask.empty())
+    {
+      *found = EdgesOutside(*found, LoadMask(mask, width, height), this->Options.minimumLength);
+    }
     Undistort(image, *found);
     edges = std::move(found);
     entry->image = image;

@@ -14,7 +14,7 @@
 namespace freespace
 {
 
-/// The edges of a scene's photographs, freed of the lens's distortion. An image takes part in several
+/// The edges of a scene's photographs outside of their masks, freed of the lens's distortion. An image takes part in several
 /// clusters, and in the refinement of the cameras: its edges are found once and kept, as far as memory
 /// allows. Several threads may ask at the same time.
 class EdgeStore
@@ -40,7 +40,7 @@ private:
 
   void Note(Entry& entry, const std::shared_ptr<const EdgeChains>& edges);
 
-  std::string Images; // folder
+  Scene Source; // for its folders
   EdgeTokenOptions Options;
   std::size_t MostTokens;
   std::mutex Mutex; // of what follows, and of the entries' edges and lastUse

@@ -66,8 +66,8 @@ TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)
   photographs.Add("image0.jpg", 400, 300);
   photographs.Add("image1.jpg", 800, 600);
   const std::string told = ScaleToPhotographs(photographs.Scene, model);
-  EXPECT_EQ(told,
-    "1 of 3 photographs have another size than their cameras, which are scaled by 0.5");
+  EXPECT_EQ(
+    told, "1 of 3 photographs have another size than their cameras, which are scaled by 0.5");
   const auto before = CalibratedImages(given), after = CalibratedImages(model);
   EXPECT_EQ(after[0].camera.width, 400);
   EXPECT_EQ(after[0].camera.height, 300);
@@ -76,8 +76,7 @@ TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)
   EXPECT_EQ(after[2].camera.K, before[2].camera.K); // whose photograph is missing
   for (std::size_t i = 0; i < given.images[0].observations.size(); ++i)
   {
-    EXPECT_EQ(
-      model.images[0].observations[i].pixel, 0.5 * given.images[0].observations[i].pixel);
+    EXPECT_EQ(model.images[0].observations[i].pixel, 0.5 * given.images[0].observations[i].pixel);
   }
   for (const SparsePoint& point : model.points)
   {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_MaskedEdges_h
+#define freespace_MaskedEdges_h
+
+#include "Edges/EdgeTokens.h"
+
+#include <opencv2/core.hpp>
+
+namespace freespace
+{
+
+/// The edges outside of the black parts of a mask. Chains end where these begin; what is left of a chain
+/// counts when it has as many tokens as a chain must have. The edges were found in the whole image: the
+/// boundary of a mask makes none. A token on the boundary keeps the colours of both sides, so that a
+/// silhouette stays an edge.
+EdgeChains EdgesOutside(const EdgeChains& edges, const cv::Mat& mask, int minimumLength);
+
+}
+
+#endif
