@@ -328,7 +328,8 @@ TEST(ProposeClusters, DenseRowTakesThePreferredAngle)
   const std::set<int> references = References(clusters);
   for (int i = 0; i < 121; ++i)
   {
-    const auto isNear = [i](int reference) { return 0.25 * std::abs(reference - i) <= 5.0; };
+    // The separation, and a little more: an image that several references cover is not one itself.
+    const auto isNear = [i](int reference) { return 0.25 * std::abs(reference - i) <= 6.0; };
     EXPECT_TRUE(std::any_of(references.begin(), references.end(), isNear)) << "image " << i;
   }
   for (const ProposedCluster& cluster : clusters)
