@@ -200,9 +200,8 @@ int vtkEdgeStereoReader::RequestData(
     }
     const std::vector<freespace::CalibratedImage> images =
       CamerasOf(checked, edges, options.matching, this->RefineCameras, progress.Part(0.2, 0.6));
-    const std::vector<freespace::EdgeView> views =
-      freespace::FindSceneFeatures(scene, images, edges, needed, options,
-        freespace::SMPParallelFor, progress.Part(0.6, 1), checked.warnings);
+    const std::vector<freespace::EdgeView> views = freespace::FindSceneFeatures(scene, images,
+      edges, needed, options, freespace::SMPParallelFor, progress.Part(0.6, 1), checked.warnings);
     for (const std::string& warning : checked.warnings)
     {
       vtkWarningMacro(<< warning);

@@ -21,9 +21,9 @@ double Share(const EdgeView& view)
 }
 
 // The view of a cluster, or one without features.
-EdgeView FeaturesOf(EdgeStore& edges, PhotographStore& photographs, const std::vector<CalibratedImage>& images,
-  const Cluster& cluster, bool isNeeded, const EdgeStereoOptions& options,
-  const CancellationFlag& stop)
+EdgeView FeaturesOf(EdgeStore& edges, PhotographStore& photographs,
+  const std::vector<CalibratedImage>& images, const Cluster& cluster, bool isNeeded,
+  const EdgeStereoOptions& options, const CancellationFlag& stop)
 {
   EdgeView nothing;
   nothing.name = cluster.name;
@@ -90,7 +90,10 @@ std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   PhotographStore photographs(scene.ImagesFolder());
   ParallelForWithProgress(views.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
-    { views[i] = FeaturesOf(edges, photographs, images, scene.clusters[i], i < needed, options, stop); });
+    {
+      views[i] =
+        FeaturesOf(edges, photographs, images, scene.clusters[i], i < needed, options, stop);
+    });
   const std::vector<char> isPoor = FindPoorViews(views);
   std::vector<EdgeView> good;
   std::string poor;

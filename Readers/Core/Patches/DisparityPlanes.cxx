@@ -83,7 +83,8 @@ void DisparityPlanes::Paint(const View& view, const std::array<int, 3>& corners)
   }
   const auto [left, right] = std::minmax({ at[0].x(), at[1].x(), at[2].x() });
   const auto [top, bottom] = std::minmax({ at[0].y(), at[1].y(), at[2].y() });
-  const auto first = [](double from) { return std::max(0, static_cast<int>(std::ceil(from - 0.5))); };
+  const auto first = [](double from)
+  { return std::max(0, static_cast<int>(std::ceil(from - 0.5))); };
   const auto last = [](double to, int size)
   { return std::min(size - 1, static_cast<int>(std::floor(to - 0.5))); };
   for (int row = first(top); row <= last(bottom, this->Disparity.rows); ++row)
@@ -112,7 +113,8 @@ bool DisparityPlanes::Fit(const Vector2d& pixel, PatchPlane& plane, double& roug
   {
     for (int x = column - WindowRadius; x <= column + WindowRadius; x += WindowStep, ++all)
     {
-      const bool isOutside = y < 0 || x < 0 || y >= this->Disparity.rows || x >= this->Disparity.cols;
+      const bool isOutside =
+        y < 0 || x < 0 || y >= this->Disparity.rows || x >= this->Disparity.cols;
       const float disparity = isOutside ? 0.0f : this->Disparity(y, x);
       if (disparity > 0)
       {

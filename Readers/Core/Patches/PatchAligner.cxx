@@ -69,8 +69,8 @@ struct PatchAligner::Equations
   int good = 0; // partners that correlate well
 };
 
-PatchAligner::PatchAligner(const Image& reference, const std::vector<Image>& partners,
-  double scale, const PatchOptions& options)
+PatchAligner::PatchAligner(const Image& reference, const std::vector<Image>& partners, double scale,
+  const PatchOptions& options)
   : Reference(reference.grey)
   , FocalLength(reference.camera.K(0, 0))
   , Scale(scale)
@@ -112,8 +112,8 @@ bool PatchAligner::Read(const Vector2d& pixel, Window& window) const
       const double gx = 0.5 * (grey[x + 1] - grey[x - 1]), gy = 0.5 * (below[x] - above[x]);
       const double misplaced = PlaceDeviation * PlaceDeviation * (gx * gx + gy * gy);
       window.values[i] = grey[x];
-      window.weights[i] = static_cast<float>(std::exp(-0.5 * (x * x + y * y) / (sigma * sigma)) /
-        (1 + misplaced / (Noise * Noise)));
+      window.weights[i] = static_cast<float>(
+        std::exp(-0.5 * (x * x + y * y) / (sigma * sigma)) / (1 + misplaced / (Noise * Noise)));
       sum += value;
       squares += value * value;
       if (std::max(std::abs(x), std::abs(y)) <= MiddleRadius)
@@ -137,8 +137,7 @@ bool PatchAligner::Warp(const Partner& partner, const Window& window, const Patc
 {
   const int size = 2 * window.radius + 1;
   const double step = 1 / this->Scale;
-  const Vector3d alongRow =
-    step * (partner.H.col(0) + plane.slope.x() * partner.epipole);
+  const Vector3d alongRow = step * (partner.H.col(0) + plane.slope.x() * partner.epipole);
   const Eigen::Vector3f b = alongRow.cast<float>(), e = partner.epipole.cast<float>();
   const cv::Mat1f& image = partner.grey;
   const float lastColumn = static_cast<float>(image.cols) - 1.5f;
@@ -146,8 +145,7 @@ bool PatchAligner::Warp(const Partner& partner, const Window& window, const Patc
   float px[15], py[15], dx[15], dy[15];
   for (int y = 0; y < size; ++y)
   {
-    const Vector2d first =
-      window.center + step * Vector2d(-window.radius, y - window.radius);
+    const Vector2d first = window.center + step * Vector2d(-window.radius, y - window.radius);
     const Eigen::Vector3f a =
       (partner.H * first.homogeneous() + plane.At(first) * partner.epipole).cast<float>();
     bool isInside = true;
@@ -198,9 +196,8 @@ void PatchAligner::Add(const Window& window, const PatchPlane& plane, const Valu
     slopeSum += slopes[i];
   }
   const double contrast = Deviation(sum, squares, count);
-  const double correlation = contrast > 0 && window.contrast > 0
-    ? product / (count * contrast * window.contrast)
-    : 0;
+  const double correlation =
+    contrast > 0 && window.contrast > 0 ? product / (count * contrast * window.contrast) : 0;
   if (correlation < LeastCorrelation)
   {
     return;
@@ -293,12 +290,12 @@ AlignedPatch PatchAligner::Align(const PatchPlane& initial) const
     const double variance = PixelsPerValue *
       std::max(Noise * Noise, equations.residuals / (equations.weight * size * size));
     const Vector3d prior(0, 1 / (turn * turn), 1 / (turn * turn));
-    const Vector3d moved(0, plane.slope.x() - initial.slope.x(), plane.slope.y() - initial.slope.y());
+    const Vector3d moved(
+      0, plane.slope.x() - initial.slope.x(), plane.slope.y() - initial.slope.y());
     Matrix3d normal = equations.normal / variance;
     normal.diagonal() += prior;
     const Matrix3d covariance = normal.inverse();
-    const Vector3d change =
-      covariance * (equations.right / variance - prior.cwiseProduct(moved));
+    const Vector3d change = covariance * (equations.right / variance - prior.cwiseProduct(moved));
     if (!(equations.weight > 0) || !change.allFinite())
     {
       return result;

@@ -25,8 +25,7 @@ constexpr double CoarseCorrelation = 0.6;
 constexpr double CoarseDeviation = 4; // times that of a feature
 
 // Places of a grid that have no feature and no seed beside them.
-std::vector<Vector2d> EmptyPlaces(
-  const View& view, const std::vector<Vector2d>& seeds, int spacing)
+std::vector<Vector2d> EmptyPlaces(const View& view, const std::vector<Vector2d>& seeds, int spacing)
 {
   cv::Mat1b isTaken(view.camera.height, view.camera.width, uchar(0));
   for (const auto* points : { &view.imagePoints, &seeds })
@@ -130,8 +129,8 @@ std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Vector
     {
       const cv::Vec3b& color =
         photograph->color(static_cast<int>(place.y()), static_cast<int>(place.x()));
-      found.push_back({ place, patch.plane.disparity, patch.deviation, std::max(0.0, 1 - patch.correlation),
-        { color[2], color[1], color[0] } });
+      found.push_back({ place, patch.plane.disparity, patch.deviation,
+        std::max(0.0, 1 - patch.correlation), { color[2], color[1], color[0] } });
     }
   }
   return found;

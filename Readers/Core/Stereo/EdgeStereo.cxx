@@ -129,8 +129,7 @@ EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
     {
       partners.push_back(images[other]);
     }
-    const auto seeds =
-      OpenEdges(found.reference.edges, found.matches, options.patches.seedStep);
+    const auto seeds = OpenEdges(found.reference.edges, found.matches, options.patches.seedStep);
     AddPatches(FindPatches(view, seeds, images[found.referenceImage], partners, photographs,
                  options.patches, stop),
       view);

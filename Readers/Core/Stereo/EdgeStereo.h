@@ -49,8 +49,7 @@ struct EdgeStereoOptions
 /// Throws Aborted when the flag is set, at the next image.
 EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
   const std::vector<CalibratedImage>& images, const Cluster& cluster,
-  const EdgeStereoOptions& options,
-  const CancellationFlag& stop = NeverCancelled);
+  const EdgeStereoOptions& options, const CancellationFlag& stop = NeverCancelled);
 
 /// The same for a single cluster, whose images are loaded from the scene's folder.
 EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& images,

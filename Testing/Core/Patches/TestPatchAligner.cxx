@@ -83,8 +83,7 @@ void ExpectConvergence(const PlaneScene& scene)
     const Eigen::Vector2d pixel(column(random), row(random));
     const double truth = scene.Disparity(pixel);
     const double perPixel = 1 / aligner.Parallax(FrontoParallel(pixel, truth));
-    const AlignedPatch patch =
-      aligner.Align(FrontoParallel(pixel, truth + off(random) * perPixel));
+    const AlignedPatch patch = aligner.Align(FrontoParallel(pixel, truth + off(random) * perPixel));
     if (patch.isGood)
     {
       const double error = std::abs(patch.plane.disparity - truth);
@@ -153,8 +152,12 @@ TEST(PatchAligner, NothingWithoutContrast)
 // An edge at the window's rim tells nothing of its middle.
 TEST(PatchAligner, NothingWhereOnlyTheRimHasContrast)
 {
-  const PlaneScene scene({ 0, 0 }, [](double x, double)
-    { const double value = x < 0 ? 60 : 180; return Eigen::Vector3d(value, value, value); });
+  const PlaneScene scene({ 0, 0 },
+    [](double x, double)
+    {
+      const double value = x < 0 ? 60 : 180;
+      return Eigen::Vector3d(value, value, value);
+    });
   const double edge = scene.Images[0].camera.Project({ 0, 0, 1 }).x();
   EXPECT_FALSE(scene.Aligner().Align(FrontoParallel({ edge + 4, 90 }, 1)).isGood);
   EXPECT_TRUE(scene.Aligner().Align(FrontoParallel({ edge, 90 }, 1)).isGood);

@@ -75,8 +75,8 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->required()
     ->type_name("SCENE.json");
   command
-    .add_option("-o,--output", settings.folder,
-      "The folder for the page, index.html, and all results")
+    .add_option(
+      "-o,--output", settings.folder, "The folder for the page, index.html, and all results")
     ->required()
     ->type_name("DIR");
   command

@@ -13,7 +13,8 @@ void ClusterChoice::AddOptions(CLI::App& command, const std::string& group)
   const auto add = [&](const char* name, auto& value, const char* help)
   { return command.add_option(name, value, help)->capture_default_str()->group(group); };
   add("--angle", this->Options.preferredAngle,
-    "If the scene names no clusters: preferred angle between a reference and its neighbours, degrees")
+    "If the scene names no clusters: preferred angle between a reference and its neighbours, "
+    "degrees")
     ->check(Positive());
   add("--largest-angle", this->Options.maximumAngle,
     "Maximum angle between a reference and a neighbour, degrees")

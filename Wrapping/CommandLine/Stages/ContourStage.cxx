@@ -68,12 +68,13 @@ void ContourStage::AddOptions(CLI::App& command)
     ->group("Surface");
   command
     .add_flag("--no-fit", this->NotFitted,
-      "Keep the vertices on the boundary of the free space: do not smooth the surface and fit it to "
+      "Keep the vertices on the boundary of the free space: do not smooth the surface and fit it "
+      "to "
       "the features of all views")
     ->group("Surface");
   command
-    .add_option("--simplify", this->Simplify,
-      "Decimate the surface within this distance; 0: do not")
+    .add_option(
+      "--simplify", this->Simplify, "Decimate the surface within this distance; 0: do not")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Surface");
