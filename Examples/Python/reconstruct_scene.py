@@ -6,7 +6,7 @@ import sys
 import freespace
 
 
-def main(scene, out, cells=0):
+def main(scene, out, cells=-1):
     stereo = freespace.vtkEdgeStereoReader()
     stereo.SetFileName(scene)
     support = freespace.vtkFeatureSupportFilter()
@@ -18,7 +18,7 @@ def main(scene, out, cells=0):
 
     surface = freespace.vtkFreespaceSurfaceFilter()
     surface.SetInputConnection(maps.GetOutputPort())
-    surface.SetCells(int(cells))  # 0: as many as show what the features tell
+    surface.SetCells(int(cells))  # -1: automatic
     writer = freespace.vtkSurfaceWriter()
     writer.SetInputConnection(surface.GetOutputPort())
     writer.SetFileName(out)
