@@ -4,6 +4,7 @@
 #include "Common/ParallelForWithProgress.h"
 #include "Common/Progress.h"
 #include "Data/ViewBlocks.h"
+#include "Execution/AskAll.h"
 #include "Execution/SMPParallelFor.h"
 #include "Freespace/FreespaceQueries.h"
 
@@ -30,6 +31,7 @@ struct vtkFreespaceUnion::Internals
 {
   vtkSmartPointer<vtkMultiBlockDataSet> Maps;
   vtkSmartPointer<vtkAlgorithmOutput> Connection;
+  vtkSmartPointer<vtkAlgorithm> Producer; ///< which an output does not keep alive
   std::shared_ptr<const freespace::FreespaceUnion> Core;
   vtkMTimeType BuildTime = 0;    ///< MTime that Core was built for
   std::recursive_mutex Building; ///< recursive for observers that ask while it is built
@@ -43,9 +45,6 @@ namespace
 
 // The share of the maps, which may come from a pipeline, in building; the rest is the core.
 constexpr double MapsShare = 0.5;
-
-// The share of building in a batch of queries.
-constexpr double BuildingShare = 0.5;
 
 /// Updates an algorithm, which is aborted when the progress stops it.
 class WatchedUpdate
@@ -106,45 +105,6 @@ Eigen::Vector3d PointOf(vtkPoints* points, vtkIdType i)
   return point;
 }
 
-// Calls ask(core, i) for all of a batch on all threads, once the function is up to date and has the
-// index that is needed. False, with no results, when the progress wanted to stop.
-using MakeIndex = void (freespace::FreespaceUnion::*)(const freespace::Progress&) const;
-template <typename Ask>
-bool AskAll(vtkFreespaceUnion* phi, const freespace::Progress& progress, MakeIndex makeIndex,
-  vtkIdType count, vtkDataArray* results, const Ask& ask)
-{
-  constexpr vtkIdType blockSize = 1024;
-  const double built = phi->IsBuilt() ? 0.0 : BuildingShare;
-  results->SetNumberOfComponents(1);
-  results->SetNumberOfTuples(count);
-  try
-  {
-    const auto core = phi->GetCore(progress.Part(0.0, 0.9 * built));
-    if (core)
-    {
-      (core.get()->*makeIndex)(progress.Part(0.9 * built, built));
-    }
-    freespace::ParallelForWithProgress(
-      static_cast<std::size_t>((count + blockSize - 1) / blockSize), freespace::SMPParallelFor,
-      progress.Part(built, 1.0),
-      [&](std::size_t block, const freespace::CancellationFlag& stop)
-      {
-        const vtkIdType begin = static_cast<vtkIdType>(block) * blockSize;
-        for (vtkIdType i = begin; i < std::min(begin + blockSize, count); ++i)
-        {
-          freespace::ThrowIfCancelled(stop);
-          ask(core.get(), i);
-        }
-      });
-  }
-  catch (const freespace::Aborted&)
-  {
-    results->Initialize();
-    return false;
-  }
-  return true;
-}
-
 }
 
 vtkFreespaceUnion::vtkFreespaceUnion()
@@ -163,6 +123,7 @@ void vtkFreespaceUnion::SetMaps(vtkMultiBlockDataSet* maps)
   {
     this->Inner->Maps = maps;
     this->Inner->Connection = nullptr;
+    this->Inner->Producer = nullptr;
     this->Modified();
   }
 }
@@ -177,6 +138,7 @@ void vtkFreespaceUnion::SetInputConnection(vtkAlgorithmOutput* output)
   if (this->Inner->Connection != output)
   {
     this->Inner->Connection = output;
+    this->Inner->Producer = output ? output->GetProducer() : nullptr;
     this->Inner->Maps = nullptr;
     this->Modified();
   }
@@ -330,8 +292,8 @@ bool vtkFreespaceUnion::IsValid()
 double vtkFreespaceUnion::EvaluateFunction(double x[3])
 {
   const freespace::FreespaceUnion* core = this->Built();
-  const double value = core ? core->Value(Eigen::Vector3d(x)) : HUGE_VAL;
-  return std::min(value, VTK_DOUBLE_MAX);
+  const double value = core ? core->Value(Eigen::Vector3d(x)) : -HUGE_VAL;
+  return std::clamp(value, -VTK_DOUBLE_MAX, VTK_DOUBLE_MAX);
 }
 
 void vtkFreespaceUnion::EvaluateGradient(double x[3], double g[3])
@@ -349,6 +311,12 @@ bool vtkFreespaceUnion::IsPointFree(const double point[3])
 {
   const auto core = this->GetCore();
   return core && freespace::IsPointFree(*core, Eigen::Vector3d(point));
+}
+
+int vtkFreespaceUnion::GetPointState(const double point[3])
+{
+  const auto core = this->GetCore();
+  return core ? static_cast<int>(freespace::StateOf(*core, Eigen::Vector3d(point))) : UNKNOWN;
 }
 
 double vtkFreespaceUnion::FirstBlocked(const double first[3], const double last[3])
@@ -376,6 +344,15 @@ bool vtkFreespaceUnion::IsBoxFree(const double bounds[6])
   return core && freespace::IsBoxFree(*core, box);
 }
 
+bool vtkFreespaceUnion::AreThere(vtkObject* first, vtkObject* second)
+{
+  if (!first || !second)
+  {
+    vtkErrorMacro("A batch has no points or no array for the results.");
+  }
+  return first && second;
+}
+
 bool vtkFreespaceUnion::HaveSameSize(vtkIdType size, vtkIdType otherSize)
 {
   if (size != otherSize)
@@ -385,9 +362,29 @@ bool vtkFreespaceUnion::HaveSameSize(vtkIdType size, vtkIdType otherSize)
   return size == otherSize;
 }
 
+bool vtkFreespaceUnion::GetPointStates(vtkPoints* points, vtkUnsignedCharArray* states)
+{
+  if (!this->AreThere(points, states))
+  {
+    return false;
+  }
+  return freespace::AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForPoints,
+    points->GetNumberOfPoints(), states,
+    [&](const freespace::FreespaceUnion* core, vtkIdType i)
+    {
+      states->SetValue(i,
+        core ? static_cast<unsigned char>(freespace::StateOf(*core, PointOf(points, i)))
+             : static_cast<unsigned char>(UNKNOWN));
+    });
+}
+
 bool vtkFreespaceUnion::ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free)
 {
-  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForPoints,
+  if (!this->AreThere(points, free))
+  {
+    return false;
+  }
+  return freespace::AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForPoints,
     points->GetNumberOfPoints(), free,
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
     { free->SetValue(i, core && freespace::IsPointFree(*core, PointOf(points, i))); });
@@ -395,11 +392,12 @@ bool vtkFreespaceUnion::ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* f
 
 bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions)
 {
-  if (!this->HaveSameSize(first->GetNumberOfPoints(), last->GetNumberOfPoints()))
+  if (!this->AreThere(first, last) || !this->AreThere(first, fractions) ||
+    !this->HaveSameSize(first->GetNumberOfPoints(), last->GetNumberOfPoints()))
   {
     return false;
   }
-  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
+  return freespace::AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
     first->GetNumberOfPoints(), fractions,
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {
@@ -411,11 +409,12 @@ bool vtkFreespaceUnion::FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubl
 bool vtkFreespaceUnion::AreSpheresFree(
   vtkPoints* centers, vtkDoubleArray* radii, vtkUnsignedCharArray* free)
 {
-  if (!this->HaveSameSize(centers->GetNumberOfPoints(), radii->GetNumberOfValues()))
+  if (!this->AreThere(centers, radii) || !this->AreThere(centers, free) ||
+    !this->HaveSameSize(centers->GetNumberOfPoints(), radii->GetNumberOfValues()))
   {
     return false;
   }
-  return AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
+  return freespace::AskAll(this, this->OwnProgress(), &freespace::FreespaceUnion::IndexForBoxes,
     centers->GetNumberOfPoints(), free,
     [&](const freespace::FreespaceUnion* core, vtkIdType i)
     {

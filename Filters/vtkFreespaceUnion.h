@@ -18,7 +18,7 @@
  * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or from a
  * pipeline by SetInputConnection. Features that are not finite are ignored, and so are triangles with such
  * a corner or with a corner that is not in front of the camera. Without any feature, all space is free. A
- * block that is not a map is an error, see IsValid. The function is then positive everywhere, but queries
+ * block that is not a map is an error, see IsValid. The function is then negative everywhere, and queries
  * fail closed: nothing is free. Neither are coordinates that are not finite.
  *
  * The acceleration structures are built at the first evaluation after a change. Evaluation is thread-safe.
@@ -153,6 +153,17 @@ public:
   void EvaluateGradient(double x[3], double g[3]) override;
   ///@}
 
+  /**
+   * What is known of a point: MATTER; FREE, which was seen; or UNKNOWN, outside of the hull and never seen,
+   * which is free for Phi'. A point that is not finite is UNKNOWN, and so are all where the maps are not valid.
+   */
+  enum PointStates
+  {
+    MATTER = 0,
+    FREE = 1,
+    UNKNOWN = 2
+  };
+
   ///@{
   /**
    * Queries for "obstacle avoidance and ray tracing", the last page of the paper. They update the function
@@ -166,6 +177,7 @@ public:
    * views only touch in it.
    */
   bool IsPointFree(const double point[3]);
+  int GetPointState(const double point[3]);
   double FirstBlocked(const double first[3], const double last[3]);
   bool IsSegmentFree(const double first[3], const double last[3]);
   bool IsSphereFree(const double center[3], double radius);
@@ -179,6 +191,7 @@ public:
    * and without results if an observer aborted.
    */
   bool ArePointsFree(vtkPoints* points, vtkUnsignedCharArray* free);
+  bool GetPointStates(vtkPoints* points, vtkUnsignedCharArray* states);
   bool FirstBlocked(vtkPoints* first, vtkPoints* last, vtkDoubleArray* fractions);
   bool AreSpheresFree(vtkPoints* centers, vtkDoubleArray* radii, vtkUnsignedCharArray* free);
   ///@}
@@ -244,6 +257,7 @@ private:
   const freespace::FreespaceUnion* Built();
   void Build(const freespace::Progress& progress);
   freespace::Progress OwnProgress();
+  bool AreThere(vtkObject* first, vtkObject* second);
   bool HaveSameSize(vtkIdType size, vtkIdType otherSize);
 
   std::unique_ptr<Internals> Inner;

@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <unistd.h>
+
 vtkStandardNewMacro(vtkOSMesaRenderWindow);
 
 namespace
@@ -63,6 +65,14 @@ struct vtkOSMesaRenderWindow::InternalState
 
 namespace
 {
+
+// Mesa's threads are those of the process that made the first context: a copy of it that fork made waits for
+// them without end.
+bool IsForked()
+{
+  static const pid_t first = getpid();
+  return getpid() != first;
+}
 
 // VTK asks for 3.2 at least; Mesa gives the newest core context that it has.
 OSMesaContext CreateContext()
@@ -113,7 +123,7 @@ void vtkOSMesaRenderWindow::Initialize()
 void vtkOSMesaRenderWindow::Finalize()
 {
   InternalState& state = *this->Internals;
-  if (!state.context)
+  if (!state.context || IsForked())
   {
     return;
   }
@@ -132,6 +142,17 @@ void vtkOSMesaRenderWindow::Finalize()
 void vtkOSMesaRenderWindow::MakeCurrent()
 {
   InternalState& state = *this->Internals;
+  if (IsForked())
+  {
+    if (!state.failed)
+    {
+      state.failed = true;
+      vtkErrorMacro(
+        "This process was forked from one that made pictures, in which Mesa cannot go on: "
+        "start it afresh (multiprocessing's spawn).");
+    }
+    return;
+  }
   if (!state.context && !state.failed)
   {
     state.context = CreateContext();

@@ -9,6 +9,7 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTrivialProducer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
@@ -71,6 +72,55 @@ TEST(FreespaceFailsClosed, NothingIsFreeWithoutValidMaps)
   EXPECT_TRUE(free->GetNumberOfValues() == 0 || free->GetValue(0) == 0);
   phi->FirstBlocked(points, points, fractions);
   EXPECT_TRUE(fractions->GetNumberOfValues() == 0 || fractions->GetValue(0) == 0);
+}
+
+TEST(FreespaceFailsClosed, PointsHaveThreeStates)
+{
+  const auto phi = MakeUnion(true);
+  EXPECT_EQ(phi->GetPointState(Far), vtkFreespaceUnion::UNKNOWN);
+  double b[6];
+  phi->Update();
+  phi->GetBounds(b);
+  int counts[3] = { 0, 0, 0 };
+  for (int i = 0; i < 1000; ++i)
+  {
+    const double f[3] = { i % 10 / 9.0, i / 10 % 10 / 9.0, i / 100 / 9.0 };
+    double point[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = b[2 * axis] + f[axis] * (b[2 * axis + 1] - b[2 * axis]);
+    }
+    const int state = phi->GetPointState(point);
+    ++counts[state];
+    EXPECT_EQ(state != vtkFreespaceUnion::MATTER, phi->IsPointFree(point));
+  }
+  EXPECT_GT(counts[vtkFreespaceUnion::MATTER], 0);
+  EXPECT_GT(counts[vtkFreespaceUnion::FREE], 0);
+}
+
+TEST(FreespaceFailsClosed, NothingInPlaceOfABatch)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  const auto phi = MakeUnion(true);
+  vtkNew<vtkPoints> points;
+  EXPECT_FALSE(phi->ArePointsFree(nullptr, nullptr));
+  EXPECT_FALSE(phi->GetPointStates(points, nullptr));
+  EXPECT_FALSE(phi->FirstBlocked(points, nullptr, nullptr));
+  EXPECT_FALSE(phi->AreSpheresFree(points, nullptr, nullptr));
+  vtkObject::GlobalWarningDisplayOn();
+}
+
+// The union alone keeps what makes its maps.
+TEST(FreespaceFailsClosed, TheProducerLivesAsLongAsTheUnion)
+{
+  vtkNew<vtkFreespaceUnion> phi;
+  {
+    vtkNew<vtkTrivialProducer> producer;
+    producer->SetOutput(MakeUnion(true)->GetMaps());
+    phi->SetInputConnection(producer->GetOutputPort());
+  }
+  EXPECT_TRUE(phi->IsPointFree(Far));
+  EXPECT_GT(phi->GetMTime(), 0u);
 }
 
 TEST(FreespaceFailsClosed, WhatIsNotFiniteIsNotFree)

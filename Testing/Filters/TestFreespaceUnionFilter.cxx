@@ -343,9 +343,9 @@ TEST(vtkFreespaceUnion, TellsWhatIsWrong)
   vtkNew<ErrorObserver> errors;
   phi->AddObserver(vtkCommand::ErrorEvent, errors);
   double x[3] = { 0, 0, 0 };
-  EXPECT_GT(phi->EvaluateFunction(x), 0);
+  EXPECT_LT(phi->EvaluateFunction(x), 0);
   EXPECT_EQ(errors->Count, 1);
-  EXPECT_GT(phi->EvaluateFunction(x), 0);
+  EXPECT_LT(phi->EvaluateFunction(x), 0);
   EXPECT_EQ(errors->Count, 1); // once, not for each point
 
   const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 2);

@@ -11,6 +11,7 @@
 #include "Session/Session.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -54,6 +55,11 @@ void DescribeProgram(CLI::App& program)
   program.set_version_flag("--version", "freespace " FREESPACE_VERSION);
   program.set_config("--config", "", "Read options from a file that --save-config wrote")
     ->check(CLI::ExistingFile)
+    ->check(CLI::Validator(
+      [](std::string& file) {
+        return std::filesystem::is_regular_file(file) ? std::string() : "'" + file + "' is no file";
+      },
+      ""))
     ->type_name("FILE.ini");
   program.require_subcommand(1);
   program.fallthrough();

@@ -105,6 +105,19 @@ bool IsPointFree(const FreespaceUnion& phi, const Vector3d& point)
   return point.allFinite() && phi.IsFree(point);
 }
 
+PointState StateOf(const FreespaceUnion& phi, const Vector3d& point)
+{
+  if (!point.allFinite())
+  {
+    return PointState::Unknown;
+  }
+  if (phi.IsSeenFree(point))
+  {
+    return PointState::Free;
+  }
+  return phi.IsFree(point) ? PointState::Unknown : PointState::Matter;
+}
+
 double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vector3d& last)
 {
   if (!first.allFinite() || !last.allFinite())

@@ -14,6 +14,16 @@ namespace freespace
 /// Whether a point lies in free space.
 bool IsPointFree(const FreespaceUnion& phi, const Eigen::Vector3d& point);
 
+/// What is known of a point.
+enum class PointState : unsigned char
+{
+  Matter,
+  Free,   ///< seen, by as many views as must agree
+  Unknown ///< outside of the hull and never seen, or not finite
+};
+
+PointState StateOf(const FreespaceUnion& phi, const Eigen::Vector3d& point);
+
 /// The first place where a segment is not in free space, as a fraction of its length: 0 when it
 /// begins in matter, infinite when all of it is free. Exact. Matter is closed: a segment that only
 /// touches it is blocked there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Output/SurfaceFiles.h"
 #include "Session/Session.h"
 #include "Stages/ClusterChoice.h"
 
@@ -40,6 +41,10 @@ void AddOptions(CLI::App& command, Settings& settings)
 
 void ProposeClusters(Session& session, const Settings& settings)
 {
+  if (!settings.output.empty())
+  {
+    CheckOutputFolder(settings.output);
+  }
   vtkNew<vtkClusterProposal> proposal;
   if (vtkSparseModelReader::CanReadFile(settings.scene))
   {

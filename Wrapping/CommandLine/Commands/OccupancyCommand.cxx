@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Output/SurfaceFiles.h"
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
@@ -76,6 +77,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
   command->callback(session.Defer(
     [settings, &session]()
     {
+      CheckOutputFolder(settings->output);
       const auto maps = ReadMaps(session, settings->maps);
       vtkNew<vtkOccupancyMapWriter> writer;
       writer->SetInputDataObject(maps);

@@ -37,6 +37,7 @@ struct Settings
   std::string maps;
   std::string points;
   std::string segments;
+  std::string outside = "unknown";
   UnionOptions freeSpace;
 };
 
@@ -69,6 +70,26 @@ std::vector<double> ReadRow(std::string line)
   return values;
 }
 
+// The next line. Throws Error where it is too long for numbers, as the one of /dev/zero, which does not end.
+bool NextLine(std::istream& file, const std::string& fileName, std::string& line)
+{
+  constexpr std::size_t longest = 1 << 16;
+  line.clear();
+  for (int c = file.get(); c != '\n'; c = file.get())
+  {
+    if (c == std::istream::traits_type::eof())
+    {
+      return !line.empty();
+    }
+    line += static_cast<char>(c);
+    if (line.size() > longest)
+    {
+      throw Error("'" + fileName + "' is no table of numbers: one of its lines is too long.");
+    }
+  }
+  return true;
+}
+
 // Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
 std::vector<double> ReadTable(Session& session, const std::string& name, std::size_t columns)
 {
@@ -87,7 +108,7 @@ std::vector<double> ReadTable(Session& session, const std::string& name, std::si
   std::vector<double> numbers;
   std::string line;
   bool isFirst = true;
-  for (int row = 1; std::getline(file, line); ++row)
+  for (int row = 1; NextLine(file, fileName, line); ++row)
   {
     session.ThrowIfFailed();                            // on an interrupt
     if (row == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
@@ -119,21 +140,22 @@ std::vector<double> ReadTable(Session& session, const std::string& name, std::si
   return numbers;
 }
 
-void TellPoints(Session& session, vtkFreespaceUnion* phi, const std::string& fileName)
+void TellPoints(Session& session, vtkFreespaceUnion* phi, const Settings& settings)
 {
-  const std::vector<double> numbers = ReadTable(session, fileName, 3);
+  const std::vector<double> numbers = ReadTable(session, settings.points, 3);
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   for (std::size_t i = 0; i < numbers.size(); i += 3)
   {
     points->InsertNextPoint(&numbers[i]);
   }
-  vtkNew<vtkUnsignedCharArray> free;
-  session.Watch(phi, "query", [&] { phi->ArePointsFree(points, free); });
+  vtkNew<vtkUnsignedCharArray> states;
+  session.Watch(phi, "query", [&] { phi->GetPointStates(points, states); });
+  const char* const answers[] = { "0", "1", settings.outside == "free" ? "1" : "unknown" };
   std::cout << "free\n";
-  for (vtkIdType i = 0; i < free->GetNumberOfValues(); ++i)
+  for (vtkIdType i = 0; i < states->GetNumberOfValues(); ++i)
   {
-    std::cout << static_cast<int>(free->GetValue(i)) << "\n";
+    std::cout << answers[states->GetValue(i)] << "\n";
   }
 }
 
@@ -170,7 +192,9 @@ void AddQueryCommand(CLI::App& program, Session& session)
     ->type_name("MAPS.vtm");
   auto* points = command
                    ->add_option("--points", settings->points,
-                     "Rows x,y,z; - reads the standard input; tells 1 for each that is free")
+                     "Rows x,y,z; - reads the standard input; tells 1 for each that is free, 0 in "
+                     "matter, unknown "
+                     "outside of the features' hull where no view has seen it")
                    ->type_name("FILE.csv");
   auto* segments =
     command
@@ -179,6 +203,11 @@ void AddQueryCommand(CLI::App& program, Session& session)
         "fraction of it; inf: nowhere")
       ->type_name("FILE.csv");
   points->excludes(segments);
+  command
+    ->add_option("--outside", settings->outside,
+      "What points outside of the hull are that no view has seen; free is the paper's Phi'")
+    ->check(CLI::IsMember({ "unknown", "free" }))
+    ->capture_default_str();
   settings->freeSpace.AddTo(*command);
   command->footer("Example:\n  freespace query maps.vtm --segments path.csv > blocked.csv\n"
                   "  grep -v '^#' path.xyz | freespace query maps.vtm --points -");
@@ -194,7 +223,7 @@ void AddQueryCommand(CLI::App& program, Session& session)
       settings->freeSpace.SetUp(phi.Get());
       session.Watch(phi, "build", [&] { phi->Update(); });
       settings->points.empty() ? TellSegments(session, phi, settings->segments)
-                               : TellPoints(session, phi, settings->points);
+                               : TellPoints(session, phi, *settings);
     }));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Session/NumberValidators.h"
+
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
 #include "Data/ObservedTriangles.h"
@@ -98,12 +100,12 @@ void AddOptions(CLI::App& command, Settings& settings)
         "Azimuth of the viewpoint, degrees around z, from x towards y; default if the "
         "surface has no stored viewpoint, which .ply and .vtp of this program "
         "have")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(Between(-360.0, 360.0))
       ->capture_default_str();
   settings.elevation = command
                          .add_option("--elevation", settings.look.elevation,
                            "Elevation of the viewpoint, degrees above the xy plane")
-                         ->check(CLI::Range(-90.0, 90.0))
+                         ->check(Between(-90.0, 90.0))
                          ->capture_default_str();
   addWithoutCamera(settings.azimuth);
   addWithoutCamera(settings.elevation);

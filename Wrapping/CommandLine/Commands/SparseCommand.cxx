@@ -38,8 +38,12 @@ void AddSparseCommand(CLI::App& program, Session& session)
     ->type_name("FEATURES.vtm");
   settings->sparse.AddOptions(*command);
   command->footer("Example:\n  freespace sparse colmap/sparse/0 -o features.vtm");
-  command->callback(session.Defer([settings, &session]()
-    { WriteViews(session, settings->sparse.Run(session, settings->model), settings->output); }));
+  command->callback(session.Defer(
+    [settings, &session]()
+    {
+      CheckViewsName(settings->output);
+      WriteViews(session, settings->sparse.Run(session, settings->model), settings->output);
+    }));
 }
 
 }

@@ -29,6 +29,7 @@ struct Settings
 
 void FindFeatures(Session& session, const Settings& settings)
 {
+  CheckViewsName(settings.output);
   const auto features = settings.stereo.Run(session, settings.scene);
   WriteViews(session, features, settings.output);
   if (!settings.overlay.empty())

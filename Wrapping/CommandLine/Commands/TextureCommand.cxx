@@ -61,6 +61,7 @@ void Texture(Session& session, const Settings& settings)
     throw Error(
       "Cannot write '" + settings.output + "': a model's file name ends in .glb, .obj or .ply.");
   }
+  CheckOutputFolder(settings.output);
   const auto surface = ReadSurface(session, settings.mesh);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);

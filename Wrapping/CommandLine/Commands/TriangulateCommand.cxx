@@ -40,6 +40,7 @@ void AddTriangulateCommand(CLI::App& program, Session& session)
   command->callback(session.Defer(
     [settings, &session]()
     {
+      CheckViewsName(settings->output);
       const auto features = ReadFeatures(session, settings->features);
       WriteViews(session, settings->triangulate.Run(session, features), settings->output);
     }));

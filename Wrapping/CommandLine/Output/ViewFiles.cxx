@@ -2,6 +2,8 @@
 #include "Output/ViewFiles.h"
 
 #include "Common/Error.h"
+#include "Common/FileExtension.h"
+#include "Output/SurfaceFiles.h"
 #include "Session/Session.h"
 
 #include <vtkMultiBlockDataSet.h>
@@ -57,6 +59,15 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::stri
       "' holds features, not disparity maps: run 'freespace triangulate' on it first.");
   }
   return maps;
+}
+
+void CheckViewsName(const std::string& fileName)
+{
+  CheckOutputFolder(fileName);
+  if (LowerCaseExtension(fileName) != ".vtm")
+  {
+    throw Error("Cannot write '" + fileName + "': the name of a file of views ends in .vtm.");
+  }
 }
 
 void WriteViews(Session& session, vtkMultiBlockDataSet* views, const std::string& fileName)

@@ -22,6 +22,9 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadFeatures(Session& session, const std::
 /// The same for what 'triangulate' wrote. Throws Error when there are features but no triangles.
 vtkSmartPointer<vtkMultiBlockDataSet> ReadMaps(Session& session, const std::string& fileName);
 
+/// Throws Error unless views can be written under that name: before hours of work, not after.
+void CheckViewsName(const std::string& fileName);
+
 /// Writes them.
 void WriteViews(Session& session, vtkMultiBlockDataSet* views, const std::string& fileName);
 

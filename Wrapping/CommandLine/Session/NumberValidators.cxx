@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace freespace
@@ -30,6 +31,20 @@ CLI::Validator NonNegative()
       return value >= 0 ? std::string() : "'" + text + "' is not a number of 0 or more";
     },
     "NUMBER >= 0");
+}
+
+CLI::Validator Between(double least, double most)
+{
+  std::ostringstream range;
+  range << "NUMBER in [" << least << " - " << most << "]";
+  return CLI::Validator(
+    [least, most](const std::string& text)
+    {
+      const double value = FiniteNumber(text).value_or(least - 1);
+      return value >= least && value <= most ? std::string()
+                                             : "'" + text + "' is not a number in its range";
+    },
+    range.str());
 }
 
 CLI::Validator Positive()

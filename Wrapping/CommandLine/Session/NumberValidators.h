@@ -11,6 +11,9 @@ namespace freespace
 /// limits with 309 digits.
 CLI::Validator NonNegative();
 
+/// From `least` to `most`; unlike CLI::Range it refuses nan.
+CLI::Validator Between(double least, double most);
+
 /// The same for a number above 0.
 CLI::Validator Positive();
 

@@ -21,7 +21,7 @@ void ClusterChoice::AddOptions(CLI::App& command, const std::string& group)
     ->check(Positive());
   add("--overlap", this->Options.minimumOverlap,
     "Minimum fraction of the reference image that a neighbour must see")
-    ->check(CLI::Range(0.0, 1.0));
+    ->check(Between(0.0, 1.0));
   add("--partners", this->Options.neighbors,
     "Maximum number of neighbours that a reference is matched with: 4, or 2, which is faster")
     ->check(CLI::IsMember({ 2, 4 }));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stages/UnionOptions.h"
 
+#include "Session/NumberValidators.h"
+
 #include "Freespace/FreespaceUnion.h"
 
 namespace freespace
@@ -13,7 +15,7 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
     .add_option("--hull-margin", this->HullMargin,
       "Offset of the hull of the features to the outside, as a fraction of its diagonal; 0 in the "
       "paper; default: slightly more than a lattice cell")
-    ->check(CLI::Range(0.0, 10.0))
+    ->check(Between(0.0, 10.0))
     ->group(group);
   command
     .add_option("--min-views", this->MinimumViews,

@@ -3,6 +3,7 @@
 
     from freespace import queries
     queries.points_free(phi, points)            # (n,) bool
+    queries.point_states(phi, points)           # (n,) MATTER, FREE (seen) or UNKNOWN (never seen)
     queries.first_blocked(phi, first, last)     # (n,) fraction of each segment, inf where all is free
     queries.spheres_free(phi, centers, radii)   # (n,) bool
 
@@ -16,12 +17,22 @@ from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharA
 
 from .arrays import rows
 
+MATTER, FREE, UNKNOWN = 0, 1, 2
+
 
 def points_free(phi, points):
     """Whether each of the points (n, 3) is in free space."""
     free = vtkUnsignedCharArray()
     phi.ArePointsFree(_points(points, 'points'), free)
     return vtk_to_numpy(free).astype(bool)
+
+
+def point_states(phi, points):
+    """What is known of each of the points (n, 3): MATTER, FREE, which was seen, or UNKNOWN, outside of the hull and
+    never seen, which points_free counts as free."""
+    states = vtkUnsignedCharArray()
+    phi.GetPointStates(_points(points, 'points'), states)
+    return vtk_to_numpy(states).copy()
 
 
 def first_blocked(phi, first, last):
