@@ -12,6 +12,8 @@
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -27,7 +29,9 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -44,6 +48,7 @@ struct vtkSurfacePicture::Stage
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkActor> actor;
   vtkNew<vtkPolyDataMapper> greyMapper;
+  vtkNew<vtkScalarBarActor> bar;
 
   void MakeWindow();
   void ShowSurface(vtkPolyData* surface, vtkPolyDataMapper* givenMapper);
@@ -97,14 +102,19 @@ bool HasColours(vtkDataSetAttributes* attributes)
 }
 
 // A camera in this direction, as close as possible with all points in the image, with a small margin.
-Camera CameraAround(vtkPolyData* surface, double azimuth, double elevation, const int size[2])
+Camera CameraAround(
+  vtkPolyData* surface, double azimuth, double elevation, const double up[3], const int size[2])
 {
   const double halfAngle = vtkMath::RadiansFromDegrees(15.0);
   const double around = vtkMath::RadiansFromDegrees(azimuth);
   const double above = vtkMath::RadiansFromDegrees(elevation);
-  const Eigen::Vector3d right(-std::sin(around), std::cos(around), 0.0); // also straight from above
-  const Eigen::Vector3d forward(
-    -std::cos(above) * std::cos(around), -std::cos(above) * std::sin(around), -std::sin(above));
+  const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(
+    Eigen::Vector3d::UnitZ(), Eigen::Vector3d(up[0], up[1], up[2]));
+  // Also straight from above.
+  const Eigen::Vector3d right = upright * Eigen::Vector3d(-std::sin(around), std::cos(around), 0.0);
+  const Eigen::Vector3d forward = upright *
+    Eigen::Vector3d(
+      -std::cos(above) * std::cos(around), -std::cos(above) * std::sin(around), -std::sin(above));
   Camera camera;
   camera.width = size[0];
   camera.height = size[1];
@@ -117,6 +127,16 @@ Camera CameraAround(vtkPolyData* surface, double azimuth, double elevation, cons
     surface->GetPoint(i, points[i].data());
   }
   return FramePoints(camera, points);
+}
+
+// About the middle of the image.
+Camera Zoomed(Camera camera, double zoom)
+{
+  const Eigen::Vector2d middle(camera.width / 2.0, camera.height / 2.0);
+  camera.K.topLeftCorner<2, 2>() *= zoom;
+  camera.K.topRightCorner<2, 1>() =
+    middle + zoom * (camera.K.topRightCorner<2, 1>() - middle * camera.K(2, 2));
+  return camera;
 }
 
 // Darkens the near side of each depth discontinuity, so that an object stands out from a background of
@@ -187,6 +207,11 @@ void vtkSurfacePicture::Stage::MakeWindow()
     this->window->SetOffScreenRendering(1);
     this->window->AddRenderer(this->renderer);
     this->renderer->AddActor(this->actor);
+    this->renderer->AddActor(this->bar);
+    this->bar->UnconstrainedFontSizeOn();
+    this->bar->GetTitleTextProperty()->SetColor(0.0, 0.0, 0.0);
+    this->bar->GetLabelTextProperty()->SetColor(0.0, 0.0, 0.0);
+    this->bar->SetNumberOfLabels(3);
     SetUpLights(this->renderer);
     SetUpGreyLook(this->actor);
   }
@@ -319,6 +344,16 @@ bool vtkSurfacePicture::Check(vtkPolyData* surface, int width, int height)
     vtkErrorMacro("Azimuth and elevation of a picture must be finite.");
     return false;
   }
+  if (!(this->Zoom > 0) || !std::isfinite(this->Zoom))
+  {
+    vtkErrorMacro("The zoom of a picture is " << this->Zoom << ", it must be above 0.");
+    return false;
+  }
+  if (!(vtkMath::Norm(this->Up) > 0) || !std::isfinite(vtkMath::Norm(this->Up)))
+  {
+    vtkErrorMacro("What is up in a picture must be a finite direction other than 0,0,0.");
+    return false;
+  }
   if (width < 1 || height < 1 || std::max(width, height) > LargestWindow)
   {
     vtkErrorMacro("A picture of " << width << "x" << height << " pixels cannot be made.");
@@ -327,22 +362,56 @@ bool vtkSurfacePicture::Check(vtkPolyData* surface, int width, int height)
   return true;
 }
 
+// Colours by the array and shows its bar, or neither. False where the array is not there.
+bool vtkSurfacePicture::ShowColors(vtkPolyData* surface)
+{
+  Stage& stage = *this->Shown;
+  const char* name = this->ColorArray.c_str();
+  vtkDataArray* ofPoints = surface->GetPointData()->GetArray(name);
+  vtkDataArray* ofCells = surface->GetCellData()->GetArray(name);
+  stage.bar->SetVisibility(!this->ColorArray.empty());
+  if (this->ColorArray.empty() || this->Mapper)
+  {
+    stage.greyMapper->SetScalarModeToDefault();
+    return true;
+  }
+  vtkDataArray* array = ofPoints ? ofPoints : ofCells;
+  if (!array || array->GetNumberOfTuples() == 0)
+  {
+    vtkErrorMacro("The surface has no array '" << this->ColorArray << "' to colour it by.");
+    return false;
+  }
+  double range[2];
+  array->GetRange(range, array->GetNumberOfComponents() > 1 ? -1 : 0);
+  ofPoints ? stage.greyMapper->SetScalarModeToUsePointFieldData()
+           : stage.greyMapper->SetScalarModeToUseCellFieldData();
+  stage.greyMapper->SelectColorArray(name);
+  stage.greyMapper->SetColorModeToMapScalars();
+  stage.greyMapper->SetScalarVisibility(true);
+  vtkNew<vtkColorTransferFunction> colors;
+  const double above = range[1] > range[0] ? range[1] : range[0] + 1;
+  colors->AddRGBPoint(range[0], 0.23, 0.30, 0.75);
+  colors->AddRGBPoint((range[0] + above) / 2, 0.87, 0.87, 0.87);
+  colors->AddRGBPoint(above, 0.71, 0.02, 0.15);
+  if (array->GetNumberOfComponents() > 1)
+  {
+    colors->SetVectorModeToMagnitude();
+  }
+  stage.greyMapper->SetLookupTable(colors);
+  stage.bar->SetLookupTable(colors);
+  stage.bar->SetTitle(name);
+  return true;
+}
+
 void vtkSurfacePicture::PlaceCamera(vtkPolyData* surface, int width, int height)
 {
   vtkCamera* camera = this->Shown->renderer->GetActiveCamera();
   const std::optional<freespace::Camera> viewpoint =
     this->UseViewpoint ? freespace::ViewpointOf(surface) : std::nullopt;
-  if (this->Shown->view)
-  {
-    freespace::ApplyCamera(*this->Shown->view, camera);
-  }
-  else
-  {
-    freespace::ApplyCamera(viewpoint
-        ? freespace::WithSize(*viewpoint, width, height)
-        : CameraAround(surface, this->Azimuth, this->Elevation, this->Size),
-      camera);
-  }
+  const freespace::Camera from = this->Shown->view ? *this->Shown->view
+    : viewpoint                                    ? freespace::WithSize(*viewpoint, width, height)
+                : CameraAround(surface, this->Azimuth, this->Elevation, this->Up, this->Size);
+  freespace::ApplyCamera(Zoomed(from, this->Zoom), camera);
   this->Shown->renderer->ResetCameraClippingRange();
 }
 
@@ -361,6 +430,13 @@ int vtkSurfacePicture::RequestData(
   const int samples = std::min(this->Samples, LargestWindow / std::max(width, height));
   stage.MakeWindow();
   stage.ShowSurface(surface, this->Mapper);
+  if (!this->ShowColors(surface))
+  {
+    return 0;
+  }
+  stage.actor->GetProperty()->SetEdgeVisibility(this->Edges);
+  stage.actor->GetProperty()->SetEdgeColor(0.1, 0.1, 0.1);
+  stage.actor->GetProperty()->SetLineWidth(static_cast<float>(samples));
   stage.renderer->SetBackground(this->Background);
   stage.window->SetMultiSamples(0);
   stage.window->SetSize(samples * width, samples * height);
@@ -412,5 +488,9 @@ void vtkSurfacePicture::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Samples: " << this->Samples << "\n";
   os << indent << "Background: " << this->Background[0] << " " << this->Background[1] << " "
      << this->Background[2] << "\n";
+  os << indent << "Up: " << this->Up[0] << " " << this->Up[1] << " " << this->Up[2] << "\n";
+  os << indent << "Zoom: " << this->Zoom << "\n";
+  os << indent << "Edges: " << this->Edges << "\n";
+  os << indent << "ColorArray: " << this->ColorArray << "\n";
   os << indent << "Mapper: " << this->Mapper.Get() << "\n";
 }

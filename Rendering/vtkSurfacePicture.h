@@ -10,7 +10,7 @@
  *
  * SetView or SetViewBlock choose a calibrated camera (see vtkCalibratedCamera) and its image size.
  * Otherwise the image has the size Size, and the viewpoint is that stored with the surface (a camera in
- * its field data, as the program writes it to .ply and .vtp), or else Azimuth and Elevation, with +z up
+ * its field data, as the program writes it to .ply and .vtp), or else Azimuth and Elevation, with Up upwards
  * and all of the surface in sight. Each pixel is the mean of Samples x Samples rays.
  *
  * The window is kept between updates, so that a second image of the same surface is cheap. An empty
@@ -26,7 +26,7 @@
 #include "vtkSmartPointer.h" // for Mapper
 
 #include <memory> // for Scene
-#include <string> // for WritePNG
+#include <string> // for ColorArray
 
 class vtkPolyData;
 class vtkPolyDataMapper;
@@ -79,6 +79,43 @@ public:
 
   ///@{
   /**
+   * What is up where azimuth and elevation tell the viewpoint; of any length but 0. Default +z. Azimuth 0 is
+   * +x turned with it.
+   */
+  vtkSetVector3Macro(Up, double);
+  vtkGetVector3Macro(Up, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many times larger than the viewpoint, or the view, has it the middle of the picture is shown, above 0.
+   * Default 1.
+   */
+  vtkSetMacro(Zoom, double);
+  vtkGetMacro(Zoom, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the edges of the triangles are drawn. Default off.
+   */
+  vtkSetMacro(Edges, bool);
+  vtkGetMacro(Edges, bool);
+  vtkBooleanMacro(Edges, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The point or cell data array that colours the grey look, with a bar that tells its range; one that is not
+   * there is an error. Of several components their length. The bar's words need VTK::RenderingFreeType among the
+   * modules that vtk_module_autoinit names; Python has it. Default: none.
+   */
+  vtkSetMacro(ColorArray, std::string);
+  vtkGetMacro(ColorArray, std::string);
+  ///@}
+
+  ///@{
+  /**
    * Each pixel is the mean of Samples x Samples rays, 1 to 8. Default 2. It is reduced if the image would
    * otherwise be rendered at more than 8192 pixels along a side.
    */
@@ -124,6 +161,10 @@ protected:
   double Elevation = 33.0;
   int Samples = 2;
   double Background[3] = { 1.0, 1.0, 1.0 };
+  double Up[3] = { 0.0, 0.0, 1.0 };
+  double Zoom = 1.0;
+  bool Edges = false;
+  std::string ColorArray;
   vtkSmartPointer<vtkPolyDataMapper> Mapper;
 
 private:
@@ -131,6 +172,7 @@ private:
   void operator=(const vtkSurfacePicture&) = delete;
 
   bool Check(vtkPolyData* surface, int width, int height);
+  bool ShowColors(vtkPolyData* surface);
   void PlaceCamera(vtkPolyData* surface, int width, int height);
 
   struct Stage;

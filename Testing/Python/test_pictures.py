@@ -315,7 +315,8 @@ class TestRender(WithScene):
     def test_options_that_cannot_be(self):
         for options in (('--size', '0x5'), ('--size', '10'), ('--size', '10x10x10'), ('--size', '9999x10'),
                         ('--size', 'x'), ('--azimuth', 'x'), ('--elevation', '91'),
-                        ('--size', '10x10', '--scene', 'scene.json'), ('--azimuth', '3', '--view', 'c')):
+                        ('--up', '0,0,0'), ('--up', 'w'), ('--up', '1,2'), ('--background', '2,0,0'), ('--zoom', '0'),
+                        ('--diff', 'd.png'), ('--azimuth', '3', '--view', 'c')):
             with self.subTest(options=options):
                 self.fails(options[0], 'render', 'mesh.ply', '-o', 'out.png', *options)
         self.fails('Azimuth', 'render', 'mesh.ply', '-o', 'out.png', '--azimuth', 'nan')

@@ -4,10 +4,9 @@
 #include "Session/NumberValidators.h"
 
 #include "Common/Error.h"
-#include "Common/ParseNumber.h"
 #include "Data/ObservedTriangles.h"
 #include "Data/ViewBlocks.h"
-#include "Output/Picture.h"
+#include "Output/PictureOptions.h"
 #include "Output/SurfaceFiles.h"
 #include "Output/Viewpoint.h"
 #include "Session/Session.h"
@@ -18,10 +17,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
-#include <array>
 #include <memory>
-#include <string_view>
 
 namespace freespace
 {
@@ -36,40 +32,12 @@ struct Settings
   std::string scene;
   std::string model;
   std::string view;
-  std::string size;
+  PictureOptions picture;
   PictureLook look;
   CLI::Option* azimuth = nullptr;
   CLI::Option* elevation = nullptr;
   bool observed = false;
 };
-
-// "1920x1080" -> width and height.
-std::array<int, 2> SizeFrom(const std::string& text)
-{
-  const std::size_t cross = std::min(text.find('x'), text.size());
-  const std::string_view all(text);
-  const std::array<int, 2> size = { ParseNumber<int>(all.substr(0, cross)).value_or(0),
-    ParseNumber<int>(all.substr(std::min(cross + 1, all.size()))).value_or(0) };
-  if (std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > 8192)
-  {
-    throw Error(
-      "'" + text + "' is no size of a picture: it is WIDTHxHEIGHT, 1 to 8192 pixels each.");
-  }
-  return size;
-}
-
-std::string SizeFault(const std::string& text)
-{
-  try
-  {
-    SizeFrom(text);
-    return "";
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-}
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
@@ -91,9 +59,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     command.add_option("--view", settings.view, "The image whose camera it is")->type_name("NAME");
   const auto addWithoutCamera = [&](CLI::Option* option)
   { option->excludes(scene)->excludes(model)->excludes(view)->group("Without a camera"); };
-  addWithoutCamera(command.add_option("--size", settings.size, "Size of the picture, pixels")
-                     ->check(CLI::Validator(SizeFault, ""))
-                     ->type_name("WIDTHxHEIGHT [1280x960]"));
+  settings.picture.AddSize(command);
   settings.azimuth =
     command
       .add_option("--azimuth", settings.look.azimuth,
@@ -112,6 +78,8 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_flag("--observed", settings.observed,
     "Omit what no view observed, the hull and silhouette walls; the surface must be a .vtp, "
     "which has the required arrays");
+  settings.picture.AddLook(command);
+  settings.picture.AddComparison(command);
 }
 
 vtkSmartPointer<vtkPolyData> FindView(
@@ -163,11 +131,10 @@ void Render(Session& session, const Settings& settings)
   }
   PictureLook look = settings.look;
   look.useViewpoint = settings.azimuth->count() == 0 && settings.elevation->count() == 0;
-  if (!settings.size.empty())
-  {
-    look.size = SizeFrom(settings.size);
-  }
-  WritePicture(session, surface, FindView(session, settings, surface), look, settings.output);
+  settings.picture.Apply(look);
+  const auto view = Resized(FindView(session, settings, surface), settings.picture.Size());
+  WritePicture(session, surface, view, look, settings.output);
+  settings.picture.Compare(session, settings.output);
 }
 
 }
@@ -177,10 +144,13 @@ void AddRenderCommand(CLI::App& program, Session& session)
   auto settings = std::make_shared<Settings>();
   CLI::App* command = program.add_subcommand("render", "Make a picture of a surface");
   AddOptions(*command, *settings);
-  command->footer("Examples:\n"
-                  "  freespace render mesh.ply -o mesh.png --azimuth 30 --elevation 60\n"
-                  "  freespace render mesh.ply -o mesh.png --scene scene.json\n"
-                  "  freespace render mesh.ply -o mesh.png --scene scene.json --view c.jpg");
+  command->footer(
+    "Examples:\n"
+    "  freespace render mesh.ply -o mesh.png --azimuth 30 --elevation 60\n"
+    "  freespace render mesh.ply -o mesh.png --scene scene.json\n"
+    "  freespace render mesh.ply -o mesh.png --scene scene.json --view c.jpg\n"
+    "  freespace render mesh.vtp -o mesh.png --color-by Kind --edges --zoom 2\n"
+    "  freespace render mesh.ply -o mesh.png --ref baseline.png --diff difference.png");
   command->callback(session.Defer([settings, &session]() { Render(session, *settings); }));
 }
 

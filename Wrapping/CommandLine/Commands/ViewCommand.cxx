@@ -7,7 +7,7 @@
 #include "Files/FileNames.h"
 #include "Output/Animation.h"
 #include "Output/NewFolder.h"
-#include "Output/Picture.h"
+#include "Output/PictureOptions.h"
 #include "Output/SurfaceFiles.h"
 #include "Output/Viewpoint.h"
 #include "Session/NumberValidators.h"
@@ -44,6 +44,7 @@ struct Settings
   std::string model;
   int turntable = 0;
   int rate = 12;
+  PictureOptions picture;
 
   bool IsFilm() const { return this->turntable > 0 && Animation::CanWriteFile(this->output); }
   bool IsFolder() const { return !this->model.empty() || (this->turntable > 0 && !this->IsFilm()); }
@@ -76,6 +77,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->check(Positive())
     ->type_name("N");
   from->require_option(0, 1);
+  settings.picture.AddSize(command);
   command.add_option("--rate", settings.rate, "Pictures a second of a film")
     ->check(CLI::Range(1, 240))
     ->capture_default_str();
@@ -212,7 +214,7 @@ void ViewScene(Session& session, const Settings& settings)
   picture->SetSamples(1); // the mapper samples edges by itself
   for (const Shot& shot : shots)
   {
-    picture->SetViewBlock(shot.view);
+    picture->SetViewBlock(Resized(shot.view, settings.picture.Size()));
     session.Run(picture, fs::path(shot.fileName).filename().string());
     if (film)
     {

@@ -32,6 +32,11 @@ void WritePicture(Session& session, vtkPolyData* surface, vtkPolyData* view,
   picture->SetUseViewpoint(look.useViewpoint);
   picture->SetAzimuth(look.azimuth);
   picture->SetElevation(look.elevation);
+  picture->SetUp(look.up[0], look.up[1], look.up[2]);
+  picture->SetZoom(look.zoom);
+  picture->SetBackground(look.background[0], look.background[1], look.background[2]);
+  picture->SetEdges(look.edges);
+  picture->SetColorArray(look.colorArray);
   if (view)
   {
     picture->SetViewBlock(view);

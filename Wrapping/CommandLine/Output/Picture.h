@@ -22,6 +22,11 @@ struct PictureLook
   bool useViewpoint = true;                ///< of the surface, where it has one
   double azimuth = -123;                   ///< degrees
   double elevation = 33;
+  std::array<double, 3> up = { 0, 0, 1 };
+  double zoom = 1;
+  std::array<double, 3> background = { 1, 1, 1 };
+  bool edges = false;
+  std::string colorArray; ///< empty: none
 };
 
 /// Writes a picture of a surface as PNG, from the camera of a view's block or, where that is nullptr, as

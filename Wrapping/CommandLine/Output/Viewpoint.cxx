@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "PhotographBlocks.h"
+#include "Viewpoints/FramePoints.h"
 #include "Viewpoints/NovelCameras.h"
 #include "Viewpoints/VisiblePoints.h"
 
@@ -69,6 +70,18 @@ Camera ViewpointOfCameras(
   vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const std::string& fileName)
 {
   return *BestCamera(ViewsOfSurface(cameras, surface, fileName));
+}
+
+vtkSmartPointer<vtkPolyData> Resized(
+  vtkPolyData* view, const std::optional<std::array<int, 2>>& size)
+{
+  if (!view || !size)
+  {
+    return view;
+  }
+  View resized;
+  resized.camera = WithSize(ViewFromBlock(view, "to look from").camera, (*size)[0], (*size)[1]);
+  return BlockFromView(resized);
 }
 
 void AddViewpoint(vtkMultiBlockDataSet* maps, vtkPolyData* surface, const double bounds[6])

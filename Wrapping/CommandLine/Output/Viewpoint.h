@@ -4,6 +4,9 @@
 
 #include "Common/View.h"
 
+#include <vtkSmartPointer.h>
+
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +30,10 @@ Camera ViewpointOfCameras(
 /// nothing.
 std::vector<View> ViewsOfSurface(
   vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const std::string& fileName);
+
+/// The view of a picture of another size; the same where that is not given, or there is no view.
+vtkSmartPointer<vtkPolyData> Resized(
+  vtkPolyData* view, const std::optional<std::array<int, 2>>& size);
 
 /// Gives a surface the viewpoint of the maps that it comes from, see SurfaceViewpoint.h.
 /// Features beyond the bounds do not count.
