@@ -50,7 +50,8 @@ struct Scene
   std::vector<View> views;
   std::vector<DisparityMap> maps;
   vtkNew<vtkFreespaceUnion> phi;
-  SetPlain(phi.Get());
+
+  Scene() { SetPlain(this->phi.Get()); }
 };
 
 const Scene& Blocks()

@@ -11,7 +11,7 @@ namespace freespace
 struct ResolutionOptions
 {
   /// Side of a cell, as a share of the distance of the features on the surface; > 0.
-  double cell = 1.0;
+  double cell = 1.4;
 
   /// Lower bound, in footprints of a pixel; > 0.
   double pixels = 2;

@@ -39,6 +39,7 @@ constexpr double Still = 0.03;
 // The middle of a window, in which it must have contrast: otherwise an edge at its rim would put a feature
 // where nothing is known.
 constexpr int MiddleRadius = 2;
+constexpr double MiddleShare = 0.4; // of the whole window's contrast
 
 double Deviation(double sum, double squares, double count)
 {
@@ -127,7 +128,8 @@ bool PatchAligner::Read(const Vector2d& pixel, Window& window) const
   const float mean = static_cast<float>(sum / i);
   std::for_each(window.values.begin(), window.values.begin() + i, [mean](float& v) { v -= mean; });
   constexpr double middle = (2 * MiddleRadius + 1) * (2 * MiddleRadius + 1);
-  return Deviation(middleSum, middleSquares, middle) >= this->Options.leastContrast;
+  const double inMiddle = Deviation(middleSum, middleSquares, middle);
+  return inMiddle >= this->Options.leastContrast && inMiddle >= MiddleShare * window.contrast;
 }
 
 // The partner's grey levels where the plane has the window's pixels, and their slopes against disparity. False where

@@ -21,7 +21,7 @@ std::function<Eigen::Vector3d(double, double)> Waves()
   return [](double x, double y)
   {
     const double value = 128 + 30 * std::sin(140 * x + 40 * y) + 25 * std::sin(35 * x - 120 * y) +
-      20 * std::sin(230 * x + 190 * y);
+      40 * std::sin(230 * x + 190 * y);
     return Eigen::Vector3d(value, value, value);
   };
 }
