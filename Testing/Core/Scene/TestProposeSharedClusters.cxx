@@ -23,7 +23,8 @@ TEST(ProposeClusters, ClustersOfTheSharedScenes)
     }
     const Scene scene = ReadScene(file);
     const SparseModel model = ReadSceneModel(scene);
-    const std::vector<Cluster> found = ClustersFromProposal(model, ProposeClusters(model, {}).clusters);
+    const std::vector<Cluster> found =
+      ClustersFromProposal(model, ProposeClusters(model, {}).clusters);
     EXPECT_GE(found.size(), scene.clusters.size()) << name;
     for (const Cluster& expected : scene.clusters)
     {
