@@ -18,7 +18,7 @@ class TestQuery(WithScene):
         told = self.query('--points', 'points.csv')
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertEqual(told.stdout.splitlines()[0], 'free')
-        self.assertEqual(told.stdout.splitlines()[2:], ['1', '1'])  # far beyond the hull
+        self.assertEqual(told.stdout.splitlines()[2:], ['unknown', 'unknown'])  # far beyond the hull
         self.assertEqual(self.query('--points', '-', text=ROWS).stdout, told.stdout)
 
     def test_a_standard_input_that_cannot_be(self):
