@@ -319,7 +319,7 @@ class TestRender(WithScene):
                         ('--diff', 'd.png'), ('--azimuth', '3', '--view', 'c')):
             with self.subTest(options=options):
                 self.fails(options[0], 'render', 'mesh.ply', '-o', 'out.png', *options)
-        self.fails('Azimuth', 'render', 'mesh.ply', '-o', 'out.png', '--azimuth', 'nan')
+        self.fails('--azimuth', 'render', 'mesh.ply', '-o', 'out.png', '--azimuth', 'nan')
         self.fails('--view', 'render', 'mesh.ply', '-o', 'out.png', '--view', 'cluster1_c.jpg')
 
     def test_output_that_cannot_be(self):

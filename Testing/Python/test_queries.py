@@ -87,13 +87,13 @@ class TestQueries(unittest.TestCase):
             writer.SetFileName(os.path.join(folder, 'maps.vtm'))
             writer.SetInputData(self.maps)
             writer.Write()
-            for option, table, answer in (
-                    ('--points', self.points, [1, 0, 0, 1, 1]),
-                    ('--segments', np.hstack([self.first, self.last]), [.25, np.inf, .25, 0])):
+            for outside, option, table, answer in (
+                    (['--outside', 'free'], '--points', self.points, [1, 0, 0, 1, 1]),
+                    ([], '--segments', np.hstack([self.first, self.last]), [.25, np.inf, .25, 0])):
                 np.savetxt(os.path.join(folder, 'table.csv'), table, delimiter=',', header='x,y,z',
                            comments='')
                 run = subprocess.run(
-                    [os.environ['FREESPACE_PROGRAM'], '--quiet', 'query', 'maps.vtm', option, 'table.csv',
+                    [os.environ['FREESPACE_PROGRAM'], '--quiet', 'query', 'maps.vtm', *outside, option, 'table.csv',
                      '--hull-margin', '0'], cwd=folder, capture_output=True, text=True)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 lines = run.stdout.split('\n')

@@ -271,10 +271,14 @@ class TestOccupancyMapWriter(unittest.TestCase):
 
     def test_settings(self):
         writer = freespace.vtkOccupancyMapWriter()
-        self.assertEqual((writer.GetResolution(), writer.GetHullMargin(), writer.GetMinimumViews()), (0, 0.01, 1))
+        self.assertEqual((writer.GetResolution(), writer.GetHullMargin(), writer.GetMinimumViews()), (0, -1, -1))
         writer.SetResolution(-1)
+        self.assertEqual(writer.GetResolution(), 0)
+        writer = self.writer('map.bt')
         writer.SetMinimumViews(0)
-        self.assertEqual((writer.GetResolution(), writer.GetMinimumViews()), (0, 1))
+        told = errors_of(writer)
+        self.assertEqual(writer.Write(), 0)
+        self.assertIn('minimum number of views', told[0])
 
 
 if __name__ == '__main__':
