@@ -63,6 +63,18 @@ std::set<Triangle> Triangles(vtkPolyData* surface)
   return triangles;
 }
 
+vtkSmartPointer<vtkPolyData> WriteAndRead(vtkPolyData* surface, const std::string& file)
+{
+  vtkNew<vtkSurfaceWriter> writer;
+  writer->SetInputDataObject(surface);
+  writer->SetFileName(file);
+  EXPECT_EQ(writer->Write(), 1);
+  vtkNew<vtkSurfaceReader> reader;
+  reader->SetFileName(file);
+  EXPECT_EQ(ErrorOfUpdate(reader), "");
+  return reader->GetOutput();
+}
+
 }
 
 TEST(vtkSurfaceWriter, WhatIsWrittenIsReadAgain)
@@ -72,15 +84,9 @@ TEST(vtkSurfaceWriter, WhatIsWrittenIsReadAgain)
   for (const char* name : { "a.ply", "a.stl", "a.obj", "a.vtp", "A.PLY", "A.Stl" })
   {
     SCOPED_TRACE(name);
-    vtkNew<vtkSurfaceWriter> writer;
-    writer->SetInputDataObject(surface);
-    writer->SetFileName(folder.Path(name));
-    ASSERT_EQ(writer->Write(), 1);
-    vtkNew<vtkSurfaceReader> reader;
-    reader->SetFileName(folder.Path(name));
-    EXPECT_EQ(ErrorOfUpdate(reader), "");
-    EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 4);
-    EXPECT_EQ(Triangles(reader->GetOutput()), Triangles(surface));
+    const auto read = WriteAndRead(surface, folder.Path(name));
+    EXPECT_EQ(read->GetNumberOfPoints(), 4);
+    EXPECT_EQ(Triangles(read), Triangles(surface));
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.Path()), fs::directory_iterator()), 6);
 }
@@ -101,14 +107,7 @@ TEST(vtkSurfaceWriter, CoordinatesFarFromTheOriginAreKept)
   surface->SetPoints(points);
   for (const char* name : { "a.ply", "a.obj", "a.vtp" })
   {
-    vtkNew<vtkSurfaceWriter> writer;
-    writer->SetInputDataObject(surface);
-    writer->SetFileName(folder.Path(name));
-    ASSERT_EQ(writer->Write(), 1);
-    vtkNew<vtkSurfaceReader> reader;
-    reader->SetFileName(folder.Path(name));
-    EXPECT_EQ(ErrorOfUpdate(reader), "");
-    EXPECT_EQ(Triangles(reader->GetOutput()), Triangles(surface)) << name;
+    EXPECT_EQ(Triangles(WriteAndRead(surface, folder.Path(name))), Triangles(surface)) << name;
   }
   vtkNew<vtkSurfaceWriter> writer;
   vtkNew<ErrorObserver> errors;
@@ -133,14 +132,7 @@ TEST(vtkSurfaceWriter, PLYAndVTPKeepTheViewpoint)
   AddCamera(surface, camera, "");
   for (const char* name : { "a.ply", "a.vtp" })
   {
-    vtkNew<vtkSurfaceWriter> writer;
-    writer->SetInputDataObject(surface);
-    writer->SetFileName(folder.Path(name));
-    ASSERT_EQ(writer->Write(), 1);
-    vtkNew<vtkSurfaceReader> reader;
-    reader->SetFileName(folder.Path(name));
-    reader->Update();
-    const auto viewpoint = ViewpointOf(reader->GetOutput());
+    const auto viewpoint = ViewpointOf(WriteAndRead(surface, folder.Path(name)));
     ASSERT_TRUE(viewpoint) << name;
     EXPECT_TRUE(viewpoint->K.isApprox(camera.K, 1e-14)) << name;
     EXPECT_TRUE(viewpoint->R.isApprox(camera.R, 1e-14)) << name;

@@ -98,6 +98,11 @@ std::string NameFromUtf8(const std::string& text)
   return name;
 }
 
+std::size_t Utf8CharacterLength(const std::string& text, std::size_t at)
+{
+  return CharacterAt(text, at).length;
+}
+
 std::string Printable(const std::string& text)
 {
   constexpr char digits[] = "0123456789abcdef";

@@ -2,6 +2,7 @@
 #ifndef freespace_NameEncoding_h
 #define freespace_NameEncoding_h
 
+#include <cstddef>
 #include <string>
 
 namespace freespace
@@ -13,6 +14,9 @@ namespace freespace
 /// Names in UTF-8 stay as they are.
 std::string Utf8FromName(const std::string& name);
 std::string NameFromUtf8(const std::string& text);
+
+/// How many bytes the character of UTF-8 at `at` has; 0 where there is none.
+std::size_t Utf8CharacterLength(const std::string& text, std::size_t at);
 
 /// A name for a message: control characters become escapes as in C.
 std::string Printable(const std::string& text);

@@ -91,8 +91,7 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
     checked.warnings.push_back(std::to_string(wrong.size()) + " of " + std::to_string(all) +
       (wrong.size() == 1 ? " images is" : " images are") +
       " left out: their edges contradict those of the others, the picture is another or turned, or "
-      "the camera "
-      "is wrong: " +
+      "the camera is wrong: " +
       Joined(wrong));
     LeaveOut({ wrong.begin(), wrong.end() }, checked);
   }

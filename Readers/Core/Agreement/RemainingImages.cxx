@@ -9,23 +9,6 @@ namespace freespace
 namespace
 {
 
-// The images beside the reference, each once.
-std::vector<std::string> OthersOf(const Cluster& cluster)
-{
-  std::vector<std::string> others;
-  for (const auto& triplet : cluster.triplets)
-  {
-    for (const std::string& image : { triplet[0], triplet[2] })
-    {
-      if (std::find(others.begin(), others.end(), image) == others.end())
-      {
-        others.push_back(image);
-      }
-    }
-  }
-  return others;
-}
-
 // Puts each of the images that stand in no triplet yet into one, beside another such or any other.
 void AddTriplets(const std::vector<std::string>& others, Cluster& cluster)
 {
@@ -51,7 +34,7 @@ void AddTriplets(const std::vector<std::string>& others, Cluster& cluster)
 Cluster Remaining(
   const Cluster& cluster, const std::set<std::string>& names, std::set<std::string>& references)
 {
-  std::vector<std::string> others = OthersOf(cluster);
+  std::vector<std::string> others = OtherImages(cluster);
   const auto isGone = [&names](const std::string& image) { return names.count(image) > 0; };
   others.erase(std::remove_if(others.begin(), others.end(), isGone), others.end());
   Cluster left;

@@ -87,7 +87,7 @@ std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   std::vector<std::string>& warnings)
 {
   std::vector<EdgeView> views(scene.clusters.size());
-  PhotographStore photographs(scene.ImagesFolder());
+  PhotographStore photographs(scene);
   ParallelForWithProgress(views.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
     {

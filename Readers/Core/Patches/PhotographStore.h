@@ -2,16 +2,13 @@
 #ifndef freespace_PhotographStore_h
 #define freespace_PhotographStore_h
 
-#include "Images/CalibratedImage.h"
+#include "Images/ImageCache.h"
+#include "Scene/Scene.h"
 
 #include <opencv2/core.hpp>
 
 #include <cstddef>
-#include <list>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <string>
 #include <vector>
 
 namespace freespace
@@ -25,34 +22,20 @@ struct Photograph
   std::vector<cv::Mat1f> levels;
 };
 
-/// The images of a scene. An image takes part in several clusters: what was asked for last
-/// is kept, as far as memory allows. Several threads may ask at the same time.
+/// The images of a scene. An image takes part in several clusters: what was asked for last is kept, as far
+/// as memory allows. Several threads may ask at the same time.
 class PhotographStore
 {
 public:
   /// Keeps what was asked for last while it has up to `mostPixels` pixels (of 8 bytes).
-  explicit PhotographStore(
-    const std::string& folder, std::size_t mostPixels = std::size_t(1) << 26);
+  explicit PhotographStore(const Scene& scene, std::size_t mostPixels = std::size_t(1) << 26);
 
   /// Throws Error naming the file: missing, unreadable or of another size than the camera's.
   std::shared_ptr<const Photograph> Find(const CalibratedImage& image);
 
 private:
-  struct Entry
-  {
-    std::mutex mutex; // who reads the image holds it
-    std::shared_ptr<const Photograph> photograph;
-    CalibratedImage image; // for which it was read
-  };
-
-  void Keep(const std::string& file, const std::shared_ptr<Entry>& entry, std::size_t pixels);
-
-  std::string Folder;
-  std::size_t MostPixels;
-  std::mutex Mutex; // of what follows
-  std::map<std::string, std::shared_ptr<Entry>> Entries;
-  std::list<std::pair<std::string, std::size_t>> LastUsed; // with pixels, the latest at the end
-  std::size_t Pixels = 0;
+  Scene Source; // for its folders
+  ImageCache<Photograph> Cache;
 };
 
 }

@@ -343,6 +343,22 @@ void Board::Check() const
   }
 }
 
+std::vector<std::string> OtherImages(const Cluster& cluster)
+{
+  std::vector<std::string> others;
+  for (const auto& triplet : cluster.triplets)
+  {
+    for (const std::string& file : { triplet[0], triplet[2] })
+    {
+      if (std::find(others.begin(), others.end(), file) == others.end())
+      {
+        others.push_back(file);
+      }
+    }
+  }
+  return others;
+}
+
 std::string Scene::ImagesFolder() const
 {
   return Resolve(this->file, this->images);

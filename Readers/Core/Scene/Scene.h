@@ -22,6 +22,9 @@ struct Cluster
   std::vector<std::array<std::string, 3>> triplets;
 };
 
+/// The images of a cluster beside its reference, each once, in the order of its triplets.
+std::vector<std::string> OtherImages(const Cluster& cluster);
+
 /// A calibration board.
 struct Board
 {
@@ -74,9 +77,9 @@ struct Scene
 };
 
 /// Reads a scene.json, or that of a folder. Of a folder with a model (FindSparseModel) and no scene.json it
-/// makes a scene whose photographs are in the folder `images` beside the model or above it. Throws Error naming the file and the fault: broken JSON, a missing, unknown
-/// or ill-typed key, a triplet without the reference in its middle or with an image twice, two
-/// clusters of one name, a board that makes no sense.
+/// makes a scene whose photographs are in the folder `images` beside the model or above it. Throws Error
+/// naming the file and the fault: broken JSON, a missing, unknown or ill-typed key, a triplet without the
+/// reference in its middle or with an image twice, two clusters of one name, a board that makes no sense.
 Scene ReadScene(const std::string& file);
 
 /// Writes a scene as a scene.json, which is made beside its target and renamed. Relative folders

@@ -48,23 +48,6 @@ DisparityRange SearchRange(
   return all;
 }
 
-// The images beside the reference, each once.
-std::vector<std::string> OtherImages(const Cluster& cluster)
-{
-  std::vector<std::string> others;
-  for (const auto& triplet : cluster.triplets)
-  {
-    for (const std::string& file : { triplet[0], triplet[2] })
-    {
-      if (std::find(others.begin(), others.end(), file) == others.end())
-      {
-        others.push_back(file);
-      }
-    }
-  }
-  return others;
-}
-
 // Every n-th piece of the chains, so that about so many tokens are left from all over the image.
 EdgeChains SomePieces(const EdgeChains& all, std::size_t mostTokens)
 {

@@ -142,7 +142,7 @@ EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& im
 {
   options.Check();
   EdgeStore edges(scene, options.edges);
-  PhotographStore photographs(scene.ImagesFolder());
+  PhotographStore photographs(scene);
   return FindFeatures(edges, photographs, images, cluster, options, stop);
 }
 

@@ -47,78 +47,34 @@ void Undistort(const CalibratedImage& image, EdgeChains& edges)
   }
 }
 
-bool HaveSameLens(const CalibratedImage& a, const CalibratedImage& b)
-{
-  return a.camera.K == b.camera.K && a.distortion == b.distortion;
-}
-
 }
 
 EdgeStore::EdgeStore(const Scene& scene, const EdgeTokenOptions& options, std::size_t mostTokens)
   : Source(scene)
   , Options(options)
-  , MostTokens(mostTokens)
+  , Cache(mostTokens)
 {
   options.Check();
 }
 
 std::shared_ptr<const EdgeChains> EdgeStore::Edges(const CalibratedImage& image)
 {
-  std::shared_ptr<Entry> entry;
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    std::shared_ptr<Entry>& known = this->Entries[image.file];
-    if (!known)
-    {
-      known = std::make_shared<Entry>();
-    }
-    entry = known;
-  }
-  const std::lock_guard<std::mutex> busy(entry->mutex);
-  std::shared_ptr<const EdgeChains> edges;
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    edges = HaveSameLens(entry->image, image) ? entry->edges : nullptr;
-  }
-  if (!edges)
-  {
-    const int width = image.camera.width, height = image.camera.height;
-    auto found = std::make_shared<EdgeChains>(
-      FindEdges(LoadImage(this->Source.ImagePath(image.file), width, height), this->Options));
-    if (const std::string mask = this->Source.MaskPath(image.file); !mask.empty())
-    {
-      *found = EdgesOutside(*found, LoadMask(mask, width, height), this->Options.minimumLength);
-    }
-    Undistort(image, *found);
-    edges = std::move(found);
-    entry->image = image;
-  }
-  this->Note(*entry, edges);
-  return edges;
+  return this->Cache.Find(
+    image, [&] { return this->Find(image); },
+    [](const EdgeChains& edges) { return edges.tokens.size(); });
 }
 
-// Keeps the edges, and lets go of those that were not asked for longest.
-void EdgeStore::Note(Entry& entry, const std::shared_ptr<const EdgeChains>& edges)
+EdgeChains EdgeStore::Find(const CalibratedImage& image) const
 {
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  const auto letGo = [this](Entry& old)
+  const int width = image.camera.width, height = image.camera.height;
+  EdgeChains edges =
+    FindEdges(LoadImage(this->Source.ImagePath(image.file), width, height), this->Options);
+  if (const std::string mask = this->Source.MaskPath(image.file); !mask.empty())
   {
-    this->Tokens -= old.edges->tokens.size();
-    this->Kept.erase(old.lastUse);
-    old.edges.reset();
-  };
-  if (entry.edges)
-  {
-    letGo(entry);
+    edges = EdgesOutside(edges, LoadMask(mask, width, height), this->Options.minimumLength);
   }
-  entry.edges = edges;
-  entry.lastUse = ++this->Uses;
-  this->Kept[entry.lastUse] = &entry;
-  this->Tokens += edges->tokens.size();
-  while (this->Tokens > this->MostTokens && this->Kept.size() > 1)
-  {
-    letGo(*this->Kept.begin()->second);
-  }
+  Undistort(image, edges);
+  return edges;
 }
 
 }

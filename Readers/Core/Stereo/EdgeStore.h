@@ -3,20 +3,18 @@
 #define freespace_EdgeStore_h
 
 #include "Edges/EdgeTokens.h"
+#include "Images/ImageCache.h"
 #include "Scene/Scene.h"
 
 #include <cstddef>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <string>
 
 namespace freespace
 {
 
-/// The edges of a scene's photographs outside of their masks, freed of the lens's distortion. An image takes part in several
-/// clusters, and in the refinement of the cameras: its edges are found once and kept, as far as memory
-/// allows. Several threads may ask at the same time.
+/// The edges of a scene's photographs outside of their masks, freed of the lens's distortion. An image
+/// takes part in several clusters, and in the refinement of the cameras: its edges are found once and kept,
+/// as far as memory allows. Several threads may ask at the same time.
 class EdgeStore
 {
 public:
@@ -30,24 +28,11 @@ public:
   std::shared_ptr<const EdgeChains> Edges(const CalibratedImage& image);
 
 private:
-  struct Entry
-  {
-    std::mutex mutex; // who finds the edges holds it
-    std::shared_ptr<const EdgeChains> edges;
-    CalibratedImage image; // for which they were found
-    std::size_t lastUse = 0;
-  };
-
-  void Note(Entry& entry, const std::shared_ptr<const EdgeChains>& edges);
+  EdgeChains Find(const CalibratedImage& image) const;
 
   Scene Source; // for its folders
   EdgeTokenOptions Options;
-  std::size_t MostTokens;
-  std::mutex Mutex; // of what follows, and of the entries' edges and lastUse
-  std::map<std::string, std::shared_ptr<Entry>> Entries;
-  std::map<std::size_t, Entry*> Kept; // those with edges, by their last use
-  std::size_t Tokens = 0;             // of these
-  std::size_t Uses = 0;
+  ImageCache<EdgeChains> Cache;
 };
 
 }

@@ -2,6 +2,7 @@
 #include "Report/Page/Html.h"
 
 #include "Common/Error.h"
+#include "Files/NameEncoding.h"
 
 #include <set>
 
@@ -10,33 +11,6 @@ namespace freespace
 
 namespace
 {
-
-// How many bytes the UTF-8 character at `at` has, or 0 where there is none.
-std::size_t CharacterLength(const std::string& text, std::size_t at)
-{
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(at);
-  const std::size_t length = first < 0x80 ? 1
-    : first >= 0xc2 && first < 0xe0       ? 2
-    : first >= 0xe0 && first < 0xf0       ? 3
-    : first >= 0xf0 && first < 0xf5       ? 4
-                                          : 0;
-  if (length == 0 || at + length > text.size())
-  {
-    return 0;
-  }
-  for (std::size_t i = at + 1; i < at + length; ++i)
-  {
-    if ((byte(i) & 0xc0) != 0x80)
-    {
-      return 0;
-    }
-  }
-  const unsigned char second = length > 1 ? byte(at + 1) : 0;
-  const bool tooLong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-  const bool noCharacter = (first == 0xed && second >= 0xa0) || (first == 0xf4 && second >= 0x90);
-  return tooLong || noCharacter ? 0 : length;
-}
 
 std::string Entity(const std::string& character)
 {
@@ -68,7 +42,7 @@ std::string EscapeHtml(const std::string& text)
   std::string escaped;
   for (std::size_t at = 0; at < text.size();)
   {
-    const std::size_t length = CharacterLength(text, at);
+    const std::size_t length = Utf8CharacterLength(text, at);
     escaped += length == 0 ? "\xef\xbf\xbd" : Entity(text.substr(at, length));
     at += length == 0 ? 1 : length;
   }
