@@ -24,8 +24,9 @@ constexpr int EmptyRadius = 3;
 constexpr double CoarseCorrelation = 0.6;
 constexpr double CoarseDeviation = 4; // times that of a feature
 
-// Places of a grid that have no feature and no seed beside them.
-std::vector<Vector2d> EmptyPlaces(const View& view, const std::vector<Vector2d>& seeds, int spacing)
+// Places of a grid outside of the mask that have no feature and no seed beside them.
+std::vector<Vector2d> EmptyPlaces(
+  const View& view, const std::vector<Vector2d>& seeds, const cv::Mat1b& mask, int spacing)
 {
   cv::Mat1b isTaken(view.camera.height, view.camera.width, uchar(0));
   for (const auto* points : { &view.imagePoints, &seeds })
@@ -44,7 +45,7 @@ std::vector<Vector2d> EmptyPlaces(const View& view, const std::vector<Vector2d>&
   {
     for (int column = spacing / 2; column < isTaken.cols; column += spacing)
     {
-      if (!isTaken(row, column))
+      if (!isTaken(row, column) && (mask.empty() || mask(row, column) != 0))
       {
         places.emplace_back(column + 0.5, row + 0.5);
       }
@@ -111,7 +112,7 @@ std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Vector
   const auto photograph = photographs.Find(reference);
   const CoarseToFine aligner(reference.camera, *photograph, partners, photographs, options);
   const DisparityPlanes planes(view);
-  std::vector<Vector2d> places = EmptyPlaces(view, seeds, options.spacing);
+  std::vector<Vector2d> places = EmptyPlaces(view, seeds, photograph->mask, options.spacing);
   places.insert(places.begin(), seeds.begin(), seeds.end());
   std::vector<PatchFeature> found;
   for (const Vector2d& place : places)

@@ -24,7 +24,7 @@ struct PatchFeature
 
 /// Looks for features where the edges of a view leave gaps ("more correspondences will only serve to improve the
 /// quality", section 2.2): at seeds, which are edges without a match, and on a grid where nothing else
-/// is near. Small planes that lie between the view's features are aligned to the images of the cluster, see
+/// is near, where the image's mask is not black. Small planes that lie between the view's features are aligned to the images of the cluster, see
 /// PatchAligner; those that are good become features. In the order of the seeds, then of the grid's rows.
 ///
 /// Throws Error naming the file or view: an image that cannot be read, features that are collinear. Throws Aborted

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Patches/PhotographStore.h"
 
+#include "Images/ImageMask.h"
 #include "Images/UndistortedImage.h"
 
 #include <opencv2/imgproc.hpp>
@@ -45,9 +46,22 @@ PhotographStore::PhotographStore(const Scene& scene, std::size_t mostPixels)
 std::shared_ptr<const Photograph> PhotographStore::Find(const CalibratedImage& image)
 {
   return this->Cache.Find(
-    image,
-    [&] { return MakePhotograph(ReadUndistortedImage(this->Source.ImagePath(image.file), image)); },
+    image, [&] { return this->Read(image); },
     [](const Photograph& photograph) { return photograph.color.total(); });
+}
+
+Photograph PhotographStore::Read(const CalibratedImage& image) const
+{
+  Photograph photograph =
+    MakePhotograph(ReadUndistortedImage(this->Source.ImagePath(image.file), image));
+  const std::string path = this->Source.MaskPath(image.file);
+  const cv::Mat mask =
+    path.empty() ? cv::Mat() : LoadMask(path, image.camera.width, image.camera.height);
+  if (!mask.empty())
+  {
+    photograph.mask = Undistorted(mask, image, cv::INTER_NEAREST);
+  }
+  return photograph;
 }
 
 }

@@ -18,6 +18,7 @@ namespace freespace
 struct Photograph
 {
   cv::Mat3b color; ///< blue, green, red
+  cv::Mat1b mask;  ///< 0 where the image is to be ignored; empty without a mask
   /// Grey levels, slightly smoothed; each level has half the resolution of the one before it.
   std::vector<cv::Mat1f> levels;
 };
@@ -34,6 +35,8 @@ public:
   std::shared_ptr<const Photograph> Find(const CalibratedImage& image);
 
 private:
+  Photograph Read(const CalibratedImage& image) const;
+
   Scene Source; // for its folders
   ImageCache<Photograph> Cache;
 };

@@ -97,6 +97,10 @@ TEST(ImageCache, AFailureIsNotKept)
 {
   ImageCache<int> cache(10);
   const auto size = [](int) { return std::size_t(1); };
-  EXPECT_THROW(cache.Find(Image("a"), []() -> int { throw 1; }, size), int);
-  EXPECT_EQ(*cache.Find(Image("a"), [] { return 7; }, size), 7);
+  EXPECT_THROW(cache.Find(
+                 Image("a"), []() -> int { throw 1; }, size),
+    int);
+  EXPECT_EQ(*cache.Find(
+              Image("a"), [] { return 7; }, size),
+    7);
 }

@@ -141,6 +141,26 @@ TEST(EdgeStereo, PatchesFollowTheEdges)
   }
 }
 
+TEST(EdgeStereo, PatchesHeedTheMask)
+{
+  SquaresScene scene;
+  const auto inMiddle = [](const Eigen::Vector2d& pixel)
+  { return pixel.x() >= 80 && pixel.x() < 160 && pixel.y() >= 60 && pixel.y() < 120; };
+  const auto count = [&]
+  {
+    const EdgeView view = scene.Find(true);
+    return std::count_if(view.imagePoints.begin(), view.imagePoints.end(), inMiddle);
+  };
+  EXPECT_GT(count(), 0);
+  const Camera& camera = scene.Images[0].camera;
+  cv::Mat mask(camera.height, camera.width, CV_8U, cv::Scalar(255));
+  mask(cv::Rect(80, 60, 80, 60)) = 0;
+  std::filesystem::create_directories(scene.Folder.Path("masks"));
+  cv::imwrite(scene.Folder.Path("masks/c.png.png"), mask);
+  scene.Scene.masks = "masks";
+  EXPECT_EQ(count(), 0);
+}
+
 TEST(EdgeStereo, ChainsFollowTheEdges)
 {
   const EdgeView view = SquaresScene().Find();
