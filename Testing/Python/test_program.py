@@ -70,6 +70,12 @@ class TestUsage(unittest.TestCase):
             self.assertEqual(result.stdout, '')
             self.assertIn("no command 'no-such-command'", result.stderr)
 
+    def test_an_error_is_one_line_whatever_the_name(self):
+        result = run('stereo', 'a\nb\x1b[31m.json', '-o', 'x.vtm')
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr.count('\n'), 1)
+        self.assertIn('a\\nb\\x1b[31m.json', result.stderr)
+
     def test_did_you_mean(self):
         for arguments, meant in ((('contuor', 'maps.vtm'), "'contour'"),
                                  (('contour', 'maps.vtm', '-o', 'x.ply', '--cels=3'), "'--cells'"),

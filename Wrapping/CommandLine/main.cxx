@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The batch program: surfaces from calibrated photographs, without a display.
 #include "Commands/Commands.h"
-#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/AtomicOutput.h"
+#include "Files/NameEncoding.h"
 #include "Help/Documentation.h"
 #include "Help/HelpFormatter.h"
 #include "Help/UnknownWord.h"
@@ -22,6 +23,12 @@ namespace
 
 constexpr int failed = 1;
 constexpr int misused = 2;
+
+// One line, whatever the names in it hold.
+void Complain(const std::string& sentence)
+{
+  std::cerr << "freespace: " << freespace::Printable(sentence) << "\n";
+}
 
 // The options of the command that was given, without those of the others and those not set.
 std::string ConfigText(const CLI::App& program)
@@ -203,12 +210,12 @@ int Run(int argc, char* argv[])
     {
       return program.exit(wish);
     }
-    std::cerr << "freespace: " << unknown << "\n";
+    Complain(unknown);
     return misused;
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "freespace: " << Fault(program, error, { argv + 1, argv + argc }) << "\n";
+    Complain(Fault(program, error, { argv + 1, argv + argc }));
     return misused;
   }
   if (!configToSave.empty() && freespace::LaunchedRank() == 0)
@@ -242,12 +249,12 @@ int main(int argc, char* argv[])
   }
   catch (const freespace::Aborted& abort)
   {
-    std::cerr << "freespace: " << abort.what() << "\n";
+    Complain(abort.what());
     return freespace::InterruptStatus();
   }
   catch (const std::exception& error)
   {
-    std::cerr << "freespace: " << error.what() << "\n";
+    Complain(error.what());
     return failed;
   }
 }

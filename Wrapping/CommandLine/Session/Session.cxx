@@ -2,6 +2,7 @@
 #include "Session/Session.h"
 
 #include "Common/Error.h"
+#include "Files/NameEncoding.h"
 #include "Session/ErrorCollector.h"
 #include "Session/Interrupts.h"
 #include "Session/ProgressLine.h"
@@ -211,7 +212,7 @@ void Session::Log(const std::string& line) const
 {
   if (!this->Quiet)
   {
-    std::cerr << line << std::endl;
+    std::cerr << Printable(line) << std::endl;
   }
 }
 
