@@ -2,6 +2,7 @@
 #include "vtkAppendPiecesFilter.h"
 
 #include "Data/ObservedTriangles.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 
 #include <vtkCellArray.h>
@@ -292,7 +293,7 @@ int vtkAppendPiecesFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

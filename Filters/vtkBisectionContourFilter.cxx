@@ -4,6 +4,7 @@
 #include "Contour/BisectionContour.h"
 #include "Contour/Lattice/ContourEstimate.h"
 #include "Data/ObservedTriangles.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Freespace/FreespaceUnion.h"
@@ -388,7 +389,7 @@ int vtkBisectionContourFilter::RequestData(
     Task task;
     if (!this->Prepare(task, progress.Part(0.0, built)))
     {
-      return 0;
+      return freespace::AfterError(this);
     }
     if (information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()))
     {
@@ -429,7 +430,7 @@ int vtkBisectionContourFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -8,6 +8,7 @@
 #include "Disparity/FeatureCloud.h"
 #include "Disparity/LongTriangles.h"
 #include "Disparity/OutlierRejection.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 
@@ -104,7 +105,7 @@ int vtkDelaunayDisparityFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -4,6 +4,7 @@
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
 #include "Disparity/FeatureSupport.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 
@@ -120,7 +121,7 @@ int vtkFeatureSupportFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

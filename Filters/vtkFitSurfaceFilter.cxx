@@ -2,6 +2,7 @@
 #include "vtkFitSurfaceFilter.h"
 
 #include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Mesh/Fit/FitSurface.h"
@@ -130,7 +131,7 @@ int vtkFitSurfaceFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreespaceSurfaceFilter.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Freespace/FreespaceUnion.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFitSurfaceFilter.h"
@@ -212,8 +213,7 @@ int vtkFreespaceSurfaceFilter::RequestData(
   if (!observer->Error.empty())
   {
     vtkErrorMacro(<< observer->Error);
-    output->Initialize();
-    return 0;
+    return freespace::AfterError(this);
   }
   return 1;
 }

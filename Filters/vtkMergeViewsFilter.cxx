@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMergeViewsFilter.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 
@@ -103,11 +104,9 @@ int vtkMergeViewsFilter::RequestData(
                                     : Merge(views[i]));
     }
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    return freespace::AfterException(this);
   }
   return 1;
 }

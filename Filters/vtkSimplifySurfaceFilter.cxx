@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSimplifySurfaceFilter.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Mesh/SimplifySurface.h"
@@ -109,7 +110,7 @@ int vtkSimplifySurfaceFilter::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

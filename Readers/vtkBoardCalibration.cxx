@@ -5,6 +5,7 @@
 #include "Calibration/BoardImages.h"
 #include "Calibration/BoardText.h"
 #include "Common/Error.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "SparseModelBlocks.h"
@@ -120,7 +121,7 @@ int vtkBoardCalibration::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    return freespace::AfterException(this);
   }
   return 1;
 }

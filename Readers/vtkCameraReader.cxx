@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCameraReader.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "Scene/Scene.h"
 #include "SparseModel/ReadSparseModel.h"
 
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -42,6 +44,7 @@ int vtkCameraReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     unsigned int index = 0;
@@ -53,11 +56,10 @@ int vtkCameraReader::RequestData(
       freespace::SetNamedBlock(output, index++, view.name, freespace::BlockFromView(view));
     }
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
   return 1;
 }

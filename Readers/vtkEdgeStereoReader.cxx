@@ -4,6 +4,7 @@
 #include "ClusterOptions.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Agreement/CheckedScene.h"
@@ -13,6 +14,7 @@
 #include "Stereo/EdgeStereo.h"
 #include "vtkClusterProposal.h"
 
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -175,6 +177,7 @@ int vtkEdgeStereoReader::RequestData(
   this->ClusterSummary.clear();
   this->ImageSummary.clear();
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const freespace::EdgeStereoOptions options = this->StereoOptions();
@@ -214,7 +217,8 @@ int vtkEdgeStereoReader::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -2,6 +2,7 @@
 #include "vtkPhotographReader.h"
 
 #include "Data/ViewBlocks.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Images/UndistortedImage.h"
 #include "Scene/Scene.h"
@@ -9,6 +10,7 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
@@ -44,6 +46,7 @@ int vtkPhotographReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
@@ -70,16 +73,10 @@ int vtkPhotographReader::RequestData(
     }
     return 1;
   }
-  catch (const freespace::Aborted&)
+  catch (...)
   {
-    output->Initialize();
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
 }
 

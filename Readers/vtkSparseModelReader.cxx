@@ -4,11 +4,13 @@
 #include "Agreement/ProjectionErrors.h"
 #include "Agreement/RemainingImages.h"
 #include "Common/Error.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "SparseModel/ReadSparseModel.h"
 #include "SparseModelBlocks.h"
 
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 
@@ -33,6 +35,7 @@ int vtkSparseModelReader::RequestData(
   options.maximumError = this->MaximumError;
   options.minimumAngle = this->MinimumAngle;
   options.minimumFeatures = this->MinimumFeatures;
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
@@ -61,7 +64,8 @@ int vtkSparseModelReader::RequestData(
   }
   catch (...)
   {
-    return freespace::AfterException(this, output);
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceReader.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/SurfaceViewpoint.h"
@@ -13,6 +14,7 @@
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
+#include <vtkErrorCode.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -145,6 +147,7 @@ int vtkSurfaceReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const auto surface = ReadByEnding(this->FileName);
@@ -165,11 +168,10 @@ int vtkSurfaceReader::RequestData(
     }
     output->ShallowCopy(triangles->GetOutput());
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
   return 1;
 }

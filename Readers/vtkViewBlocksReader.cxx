@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewBlocksReader.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "Files/NameEncoding.h"
@@ -8,6 +9,7 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -89,17 +91,17 @@ int vtkViewBlocksReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const auto blocks = freespace::WithNames(ReadWhole(this->FileName), freespace::NameFromUtf8);
     CheckBlocks(blocks, this->FileName);
     output->ShallowCopy(blocks);
   }
-  catch (const std::exception& error)
+  catch (...)
   {
-    vtkErrorMacro(<< error.what());
-    output->Initialize();
-    return 0;
+    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    return freespace::AfterException(this);
   }
   return 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfacePicture.h"
 
+#include "Execution/AlgorithmErrors.h"
 #include "CameraForVTK.h"
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
@@ -425,14 +426,14 @@ int vtkSurfacePicture::RequestData(
   const int height = stage.view ? stage.view->height : this->Size[1];
   if (!this->Check(surface, width, height))
   {
-    return 0;
+    return freespace::AfterError(this);
   }
   const int samples = std::min(this->Samples, LargestWindow / std::max(width, height));
   stage.MakeWindow();
   stage.ShowSurface(surface, this->Mapper);
   if (!this->ShowColors(surface))
   {
-    return 0;
+    return freespace::AfterError(this);
   }
   stage.actor->GetProperty()->SetEdgeVisibility(this->Edges);
   stage.actor->GetProperty()->SetEdgeColor(0.1, 0.1, 0.1);
@@ -445,7 +446,7 @@ int vtkSurfacePicture::RequestData(
   if (!fine)
   {
     vtkErrorMacro("The render window gave no picture.");
-    return 0;
+    return freespace::AfterError(this);
   }
   picture->SetExtent(0, width - 1, 0, height - 1, 0, 0);
   picture->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

@@ -2,6 +2,7 @@
 #include "vtkTextureBaker.h"
 
 #include "Common/Error.h"
+#include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "PhotographBlocks.h"
@@ -184,14 +185,9 @@ int vtkTextureBaker::RequestData(
     SetTexture(atlas, texture);
     return 1;
   }
-  catch (const Aborted&)
+  catch (...)
   {
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
+    return AfterException(this);
   }
 }
 

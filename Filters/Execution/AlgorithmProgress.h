@@ -21,26 +21,6 @@ inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
     });
 }
 
-/// For the catch (...) at the end of a RequestData: empties the output, reports the core's exception as a
-/// VTK error and returns the value to return. An abort is not an error.
-inline int AfterException(vtkAlgorithm* algorithm, vtkDataObject* output)
-{
-  output->Initialize();
-  try
-  {
-    throw;
-  }
-  catch (const Aborted&)
-  {
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorWithObjectMacro(algorithm, << error.what());
-  }
-  return 0;
-}
-
 }
 
 #endif

@@ -6,13 +6,16 @@
     vtkSurfaceWriter(file_name=Path('mesh.ply'))
 
 As VTK 9.4 has them: property x_y_z stands for SetXYZ and GetXYZ. Where a method takes a string, it takes a
-pathlib.Path, too. An object that comes from a pipeline, not from here, has the methods alone.
+pathlib.Path, too. While Update and Write work other Python threads go on, Ctrl-C stops them, and exceptions of observers
+are raised. An object that comes from a pipeline, not from here, has the methods alone.
 """
 import inspect
 import os
 import re
+from functools import partial
 
 from . import vtkFreespaceFilters, vtkFreespaceReaders, vtkFreespaceRendering, vtkFreespaceWriters
+from .running import Run, run_method
 
 MODULES = (vtkFreespaceFilters, vtkFreespaceReaders, vtkFreespaceWriters, vtkFreespaceRendering)
 
@@ -46,6 +49,14 @@ def _taking_paths(method):
     return call
 
 
+def _running(base, name):
+    def call(self, *arguments):
+        with Run(self):
+            return run_method(self, name, *arguments, otherwise=partial(getattr(base, name), self))
+    call.__name__, call.__doc__ = name, getattr(base, name).__doc__
+    return call
+
+
 def _new(cls, *arguments, **properties):
     return super(cls.__freespace__, cls).__new__(cls, *arguments)
 
@@ -66,6 +77,7 @@ def _with_properties(base):
         if inspect.ismethoddescriptor(method) and re.search(r'\(.*\bstr\b.*\) ->', method.__doc__ or '') \
                 and re.match(r'Set|Add|Write', name) and name != 'AddObserver':
             members[name] = _taking_paths(method)
+    members.update({name: _running(base, name) for name in ('Update', 'Write') if hasattr(base, name)})
     members.update(__doc__=base.__doc__, __module__='freespace', __properties__=frozenset(setters),
                    __new__=_new, __init__=_init)
     made = type(base.__name__, (base,), members)

@@ -7,7 +7,8 @@
     queries.first_blocked(phi, first, last)     # (n,) fraction of each segment, inf where all is free
     queries.spheres_free(phi, centers, radii)   # (n,) bool
 
-Arrays of other shapes are a ValueError. What is not finite is not free.
+Arrays of other shapes are a ValueError. What is not finite is not free. A union without valid maps is a
+freespace.Error. Other Python threads go on meanwhile, Ctrl-C stops a batch, and what an observer raises is raised.
 
 A batch that an observer of the union's ProgressEvent stopped, by SetAbortExecute, is empty.
 """
@@ -15,7 +16,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
 
+from . import _unlocked
 from .arrays import rows
+from .update import ErrorsRaised, check_valid
 
 MATTER, FREE, UNKNOWN = 0, 1, 2
 
@@ -23,7 +26,7 @@ MATTER, FREE, UNKNOWN = 0, 1, 2
 def points_free(phi, points):
     """Whether each of the points (n, 3) is in free space."""
     free = vtkUnsignedCharArray()
-    phi.ArePointsFree(_points(points, 'points'), free)
+    _ask(_unlocked.points_free, phi, _points(points, 'points'), free)
     return vtk_to_numpy(free).astype(bool)
 
 
@@ -31,7 +34,7 @@ def point_states(phi, points):
     """What is known of each of the points (n, 3): MATTER, FREE, which was seen, or UNKNOWN, outside of the hull and
     never seen, which points_free counts as free."""
     states = vtkUnsignedCharArray()
-    phi.GetPointStates(_points(points, 'points'), states)
+    _ask(_unlocked.point_states, phi, _points(points, 'points'), states)
     return vtk_to_numpy(states).copy()
 
 
@@ -42,7 +45,7 @@ def first_blocked(phi, first, last):
         raise ValueError(
             f'{first.GetNumberOfPoints()} first points but {last.GetNumberOfPoints()} last points')
     fractions = vtkDoubleArray()
-    phi.FirstBlocked(first, last, fractions)
+    _ask(_unlocked.first_blocked, phi, first, last, fractions)
     return vtk_to_numpy(fractions)
 
 
@@ -51,8 +54,14 @@ def spheres_free(phi, centers, radii):
     centers = rows(centers, 3, 'centers')
     radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radii, np.float64), len(centers)))
     free = vtkUnsignedCharArray()
-    phi.AreSpheresFree(_points(centers, 'centers'), numpy_to_vtk(radii, deep=True), free)
+    _ask(_unlocked.spheres_free, phi, _points(centers, 'centers'), numpy_to_vtk(radii, deep=True), free)
     return vtk_to_numpy(free).astype(bool)
+
+
+def _ask(batch, phi, *arguments):
+    with ErrorsRaised(phi):
+        batch(phi, *arguments)
+    check_valid(phi)
 
 
 def _points(array, name):

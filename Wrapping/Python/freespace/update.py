@@ -2,44 +2,14 @@
 """VTK tells of errors by events; Python by exceptions."""
 import re
 
-from vtkmodules.vtkCommonCore import vtkCollection, vtkCommand
+from vtkmodules.vtkCommonCore import vtkCommand
+
+from . import _unlocked
+from .running import Run, run_method
 
 
 class Error(RuntimeError):
     """What a VTK algorithm reported as an error."""
-
-
-# Where algorithms and functions have further ones: contours, cutters, clippers, booleans, unions.
-FUNCTIONS = ('GetImplicitFunction', 'GetCutFunction', 'GetClipFunction', 'GetFunction', 'GetExecutive')
-
-
-def _members(other):
-    """The functions of a collection, the producer of a connection, or the object itself."""
-    if isinstance(other, vtkCollection):
-        return [other.GetItemAsObject(i) for i in range(other.GetNumberOfItems())]
-    if hasattr(other, 'GetProducer'):
-        return [other.GetProducer()]
-    return [other] if hasattr(other, 'AddObserver') else []
-
-
-def _upstream(algorithm):
-    """The algorithm and all that it takes its input from, with implicit functions and executives."""
-    found, waiting = [], [algorithm]
-    while waiting:
-        it = waiting.pop()
-        if it is None or it in found:
-            continue
-        found.append(it)
-        for getter in FUNCTIONS:
-            if hasattr(it, getter):
-                waiting += _members(getattr(it, getter)())
-        if it.IsA('vtkFreespaceUnion'):
-            waiting += _members(it.GetInputConnection())
-        if hasattr(it, 'GetTotalNumberOfInputConnections'):
-            for port in range(it.GetNumberOfInputPorts()):
-                for i in range(it.GetNumberOfInputConnections(port)):
-                    waiting.append(it.GetInputConnection(port, i).GetProducer())
-    return found
 
 
 def _sentence(text):
@@ -49,27 +19,55 @@ def _sentence(text):
     return re.sub(r'^\w+ \(0x[0-9a-f]+\): ', '', ' '.join(lines)) or text.strip()
 
 
+class ErrorsRaised(Run):
+    """A call whose first error, of an algorithm or one that it takes its input from, is raised at its end."""
+
+    def __enter__(self):
+        self.errors = []
+
+        def note(caller, event, text):
+            self.errors.append(_sentence(text or ''))
+        note.CallDataType = 'string0'
+        self.tags += [(it, it.AddObserver(vtkCommand.ErrorEvent, note)) for it in self.watched]
+        return super().__enter__()
+
+    def __exit__(self, *exception):
+        super().__exit__(*exception)
+        if self.errors and exception[0] is None:
+            raise Error(self.errors[0])
+
+
+def check_valid(phi):
+    """Raises Error where the maps of a union are not valid and this was told before."""
+    if not phi.GetAbortExecute() and not phi.IsValid():
+        raise Error('The disparity maps are not valid.')
+
+
 def update(algorithm, port=0):
     """Updates an algorithm, or writes where it is a writer, and returns its output. A vtkFreespaceUnion is built,
     and returned itself.
 
     Raises freespace.Error with the first error that the algorithm, or one that it takes its input from,
-    reports. Without this, VTK prints the error and goes on with an empty output.
+    reports. Without this, VTK prints the error and goes on with an empty output. Raises what an observer raises,
+    and KeyboardInterrupt at once where Ctrl-C is pressed. Other Python threads go on meanwhile.
     """
-    errors = []
-
-    def note(caller, event, text):
-        errors.append(_sentence(text or ''))
-    note.CallDataType = 'string0'
-    watched = [(it, it.AddObserver(vtkCommand.ErrorEvent, note)) for it in _upstream(algorithm)]
-    try:
-        isWriter = hasattr(algorithm, 'Write')
-        done = algorithm.Write() if isWriter else algorithm.Update()
-    finally:
-        for it, tag in watched:
-            it.RemoveObserver(tag)
-    if errors or (isWriter and done == 0):
-        raise Error(errors[0] if errors else f'{algorithm.GetClassName()} could not write.')
+    with ErrorsRaised(algorithm) as run:
+        for phi in _unions_of_others(run.watched):
+            _unlocked.update(phi, 0)
+            if run.reason is not None or run.errors:
+                return None # and raise
+        done = run_method(algorithm, 'Write') if hasattr(algorithm, 'Write') else run_method(algorithm, 'Update', port)
+    if done == 0:
+        raise Error(f'{algorithm.GetClassName()} could not write.')
+    if algorithm.IsA('vtkFreespaceUnion'):
+        check_valid(algorithm)
+        return algorithm
     if not hasattr(algorithm, 'GetNumberOfOutputPorts'):
         return algorithm
     return algorithm.GetOutputDataObject(port) if algorithm.GetNumberOfOutputPorts() else None
+
+
+def _unions_of_others(watched):
+    """The unions that VTK's cutters and clippers evaluate, which would not stop while they are built."""
+    contoured = [it.GetImplicitFunction() for it in watched if it.IsA('vtkBisectionContourFilter')]
+    return [it for it in watched[1:] if it.IsA('vtkFreespaceUnion') and it not in contoured]
