@@ -4,7 +4,7 @@
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Files/FileNames.h"
-#include "Text/WholeFile.h"
+#include "Images/DecodeImage.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,19 +19,7 @@ namespace fs = std::filesystem;
 
 cv::Mat ReadGrayImage(const std::string& file)
 {
-  cv::Mat gray;
-  if (fs::is_regular_file(file))
-  {
-    CheckWholeJPEG(file);
-    try
-    {
-      gray = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    }
-    catch (const cv::Exception&)
-    {
-      gray.release(); // reported below
-    }
-  }
+  const cv::Mat gray = fs::is_regular_file(file) ? DecodeImage(file, false) : cv::Mat();
   if (gray.empty())
   {
     throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");
@@ -57,8 +45,7 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
       continue;
     }
     const fs::path target = fs::path(folder) / (names[i] + ".jpg");
-    const cv::Mat pixels =
-      cv::imread(picture.file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    const cv::Mat pixels = DecodeImage(picture.file, true);
     if (pixels.empty())
     {
       throw Error("Cannot read the picture " + picture.file + " again.");

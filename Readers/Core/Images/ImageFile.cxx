@@ -2,9 +2,7 @@
 #include "Images/ImageFile.h"
 
 #include "Common/Error.h"
-#include "Text/WholeFile.h"
-
-#include <opencv2/imgcodecs.hpp>
+#include "Images/DecodeImage.h"
 
 #include <filesystem>
 
@@ -17,17 +15,8 @@ cv::Mat LoadImage(const std::string& path, int width, int height)
   {
     throw Error("Cannot read the image " + path + ": there is no such file.");
   }
-  CheckWholeJPEG(path);
-  cv::Mat image;
-  try
-  {
-    // Cameras know the pixels as they are stored, whatever the picture says about its orientation.
-    image = cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  }
-  catch (const cv::Exception&)
-  {
-    image.release(); // told below
-  }
+  // Cameras know the pixels as they are stored.
+  const cv::Mat image = DecodeImage(path, true);
   if (image.empty())
   {
     throw Error("Cannot read the image " + path + ": it is damaged or of an unknown format.");
