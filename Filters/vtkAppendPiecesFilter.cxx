@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 vtkStandardNewMacro(vtkAppendPiecesFilter);
@@ -76,11 +77,36 @@ private:
       {
         throw freespace::Error(name + " has cells that are not triangles.");
       }
+      this->CheckNotGivenBefore(p, name);
       this->Triangles += piece->GetNumberOfPolys();
     }
     if (3 * this->Triangles > INT32_MAX)
     {
       throw freespace::Error("The surface has more than 2^31 corners, use fewer cells.");
+    }
+  }
+
+  // Two pieces are the same where they have as many points and triangles and the same first triangle.
+  void CheckNotGivenBefore(std::size_t p, const std::string& name)
+  {
+    vtkPolyData* piece = this->Pieces[p];
+    if (piece->GetNumberOfPolys() == 0)
+    {
+      return;
+    }
+    vtkIdType size;
+    const vtkIdType* ids;
+    piece->GetPolys()->GetCellAtId(0, size, ids);
+    Beginning beginning{ piece->GetNumberOfPoints(), piece->GetNumberOfPolys(), {} };
+    for (int i = 0; i < 3; ++i)
+    {
+      std::get<2>(beginning)[i] = PositionOf(piece, ids[i]);
+    }
+    const auto [before, isNew] = this->Beginnings.emplace(beginning, p);
+    if (!isNew)
+    {
+      throw freespace::Error(
+        name + " is given twice: it is the same as piece " + std::to_string(before->second) + ".");
     }
   }
 
@@ -246,6 +272,8 @@ private:
 
   const std::vector<vtkPolyData*>& Pieces;
   std::map<Position, vtkIdType> Shared; ///< points in several pieces: their place in the whole
+  using Beginning = std::tuple<vtkIdType, vtkIdType, std::array<Position, 3>>;
+  std::map<Beginning, std::size_t> Beginnings; ///< of the pieces that have triangles
   int PointType = VTK_VOID;
   vtkIdType Points = 0, OwnPoints = 0, Triangles = 0;
 };

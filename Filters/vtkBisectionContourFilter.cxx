@@ -6,6 +6,7 @@
 #include "Data/ObservedTriangles.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
+#include "Execution/PieceRequest.h"
 #include "Execution/SMPParallelFor.h"
 #include "Freespace/FreespaceUnion.h"
 #include "Mesh/FeatureGrid.h"
@@ -386,6 +387,7 @@ int vtkBisectionContourFilter::RequestData(
   const double built = this->ShareOfBuilding();
   try
   {
+    freespace::RefuseGhosts(information);
     Task task;
     if (!this->Prepare(task, progress.Part(0.0, built)))
     {

@@ -3,6 +3,7 @@
 
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Disparity/Background/BackgroundContinuation.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/FeatureCloud.h"
@@ -41,10 +42,15 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
   this->GreatestDepthRatio = trim.greatestDepth;
 }
 
+int vtkDelaunayDisparityFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  freespace::AcceptViews(info);
+  return 1;
+}
+
 int vtkDelaunayDisparityFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMultiBlockDataSet* input = vtkMultiBlockDataSet::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::DelaunayDisparityOptions options;
   options.minimumDisparity = this->MinimumDisparity != 0;
@@ -62,6 +68,7 @@ int vtkDelaunayDisparityFilter::RequestData(
   untrusted.greatestDepth = this->GreatestDepthRatio;
   try
   {
+    const auto input = freespace::ViewsOf(inputVector[0]);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     untrusted.Check();
     std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);

@@ -169,6 +169,7 @@ protected:
   vtkDelaunayDisparityFilter();
   ~vtkDelaunayDisparityFilter() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   // Defaults are those of the options structs in Filters/Core/Disparity.

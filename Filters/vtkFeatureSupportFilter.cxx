@@ -3,6 +3,7 @@
 
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Disparity/FeatureSupport.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
@@ -90,10 +91,15 @@ vtkSmartPointer<vtkPolyData> KeepSupported(
 
 }
 
+int vtkFeatureSupportFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  freespace::AcceptViews(info);
+  return 1;
+}
+
 int vtkFeatureSupportFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkMultiBlockDataSet* input = vtkMultiBlockDataSet::GetData(inputVector[0]);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::FeatureSupportOptions options;
   options.radius = this->Radius;
@@ -102,6 +108,7 @@ int vtkFeatureSupportFilter::RequestData(
   options.disparityTolerance = this->DisparityTolerance;
   try
   {
+    const auto input = freespace::ViewsOf(inputVector[0]);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
     std::vector<double> work;

@@ -69,6 +69,7 @@ protected:
   vtkFeatureSupportFilter();
   ~vtkFeatureSupportFilter() override = default;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   // Defaults are those of freespace::FeatureSupportOptions.

@@ -2,6 +2,7 @@
 #include "vtkFitSurfaceFilter.h"
 
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
@@ -94,8 +95,14 @@ vtkFitSurfaceFilter::vtkFitSurfaceFilter()
 
 int vtkFitSurfaceFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(
-    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkMultiBlockDataSet");
+  if (port == 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  }
+  else
+  {
+    freespace::AcceptViews(info);
+  }
   return 1;
 }
 
@@ -103,10 +110,10 @@ int vtkFitSurfaceFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
-  vtkMultiBlockDataSet* maps = vtkMultiBlockDataSet::GetData(inputVector[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   try
   {
+    const auto maps = freespace::ViewsOf(inputVector[1]);
     freespace::FitSurfaceOptions options;
     options.rounds = this->Rounds;
     options.normals.iterations = this->NormalIterations;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreespaceSurfaceFilter.h"
 
+#include "Data/ViewInput.h"
 #include "Execution/AlgorithmErrors.h"
+#include "Execution/PieceRequest.h"
 #include "Freespace/FreespaceUnion.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkFitSurfaceFilter.h"
@@ -145,7 +147,7 @@ vtkMTimeType vtkFreespaceSurfaceFilter::TimeOfSettings()
 
 int vtkFreespaceSurfaceFilter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   return 1;
 }
 
@@ -174,7 +176,15 @@ int vtkFreespaceSurfaceFilter::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(information);
   // The pipeline's own data may be released while the function holds the maps.
   vtkNew<vtkMultiBlockDataSet> maps;
-  maps->ShallowCopy(vtkMultiBlockDataSet::GetData(inputVector[0]));
+  try
+  {
+    freespace::RefuseGhosts(information);
+    maps->ShallowCopy(freespace::ViewsOf(inputVector[0]));
+  }
+  catch (...)
+  {
+    return freespace::AfterException(this);
+  }
   this->FreespaceUnion->SetMaps(maps);
   const freespace::FreespaceUnionOptions defaults;
   const int cells = this->Contour->GetCells();

@@ -4,8 +4,10 @@
 #include "Common/ParallelForWithProgress.h"
 #include "Common/Progress.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Execution/AskAll.h"
 #include "Execution/SMPParallelFor.h"
+#include "Execution/WatchedUpdate.h"
 #include "Freespace/FreespaceQueries.h"
 
 #include <vtkAlgorithm.h>
@@ -46,48 +48,6 @@ namespace
 // The share of the maps, which may come from a pipeline, in building; the rest is the core.
 constexpr double MapsShare = 0.5;
 
-/// Updates an algorithm, which is aborted when the progress stops it.
-class WatchedUpdate
-{
-public:
-  WatchedUpdate(vtkAlgorithm* algorithm, const freespace::Progress& progress)
-    : Algorithm(algorithm)
-    , Told(progress)
-  {
-  }
-
-  void Run(int port)
-  {
-    const unsigned long tag =
-      this->Algorithm->AddObserver(vtkCommand::ProgressEvent, this, &WatchedUpdate::See);
-    this->Algorithm->Update(port);
-    this->Algorithm->RemoveObserver(tag);
-    if (this->IsStopped)
-    {
-      this->Algorithm->Modified(); // its output is not what it should be
-      throw freespace::Aborted();
-    }
-  }
-
-private:
-  void See(vtkObject*, unsigned long, void* fraction)
-  {
-    try
-    {
-      this->Told(*static_cast<double*>(fraction));
-    }
-    catch (const freespace::Aborted&)
-    {
-      this->IsStopped = true;
-      this->Algorithm->SetAbortExecute(1);
-    }
-  }
-
-  vtkAlgorithm* Algorithm;
-  const freespace::Progress& Told;
-  bool IsStopped = false;
-};
-
 void GiveBounds(const Eigen::AlignedBox3d& box, double bounds[6])
 {
   vtkMath::UninitializeBounds(bounds);
@@ -125,6 +85,19 @@ void vtkFreespaceUnion::SetMaps(vtkMultiBlockDataSet* maps)
     this->Inner->Connection = nullptr;
     this->Inner->Producer = nullptr;
     this->Modified();
+  }
+}
+
+void vtkFreespaceUnion::SetInputDataObject(vtkDataObject* maps)
+{
+  try
+  {
+    this->SetMaps(freespace::ViewsOf(maps));
+  }
+  catch (const freespace::Error& error)
+  {
+    vtkErrorMacro(<< error.what());
+    this->SetMaps(nullptr);
   }
 }
 
@@ -200,9 +173,9 @@ void vtkFreespaceUnion::Build(const freespace::Progress& progress)
     vtkAlgorithm* producer = this->Inner->Connection->GetProducer();
     const int port = this->Inner->Connection->GetIndex();
     const freespace::Progress updating = progress.Part(0.0, MapsShare);
-    WatchedUpdate(producer, updating).Run(port);
+    freespace::WatchedUpdate(producer, updating).Run(port);
     building = progress.Part(MapsShare, 1.0);
-    this->Inner->Maps = vtkMultiBlockDataSet::SafeDownCast(producer->GetOutputDataObject(port));
+    this->Inner->Maps = freespace::ViewsOf(producer->GetOutputDataObject(port));
   }
   if (!this->Inner->Maps)
   {

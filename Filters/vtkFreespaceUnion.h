@@ -15,8 +15,8 @@
  * Without a margin the hull cuts away all matter that lies on it and has no thickness, such as a board
  * under the scene; HullMargin moves the hull outward.
  *
- * Input: a vtkMultiBlockDataSet of disparity maps (see the README for the arrays), by SetMaps, or from a
- * pipeline by SetInputConnection. Features that are not finite are ignored, and so are triangles with such
+ * Input: a vtkMultiBlockDataSet or vtkPartitionedDataSetCollection of disparity maps (see the README for the
+ * arrays), by SetMaps, or from a pipeline by SetInputConnection. Features that are not finite are ignored, and so are triangles with such
  * a corner or with a corner that is not in front of the camera. Without any feature, all space is free. A
  * block that is not a map is an error, see IsValid. The function is then negative everywhere, and queries
  * fail closed: nothing is free. Neither are coordinates that are not finite.
@@ -51,6 +51,7 @@
 #include <memory> // for the inner structures
 
 class vtkAlgorithmOutput;
+class vtkDataObject;
 class vtkDoubleArray;
 class vtkMultiBlockDataSet;
 class vtkPoints;
@@ -70,11 +71,13 @@ public:
 
   ///@{
   /**
-   * The disparity maps, one block per view. Replaces a connection.
+   * The disparity maps, one block per view. Replaces a connection. SetInputDataObject takes a
+   * vtkPartitionedDataSetCollection, too.
    */
   virtual void SetMaps(vtkMultiBlockDataSet* maps);
   vtkMultiBlockDataSet* GetMaps();
   void SetInputData(vtkMultiBlockDataSet* maps) { this->SetMaps(maps); }
+  void SetInputDataObject(vtkDataObject* maps);
   ///@}
 
   ///@{

@@ -4,6 +4,7 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
@@ -75,7 +76,7 @@ vtkSmartPointer<vtkPolyData> Merge(const Parts& parts)
 
 int vtkMergeViewsFilter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
 }
@@ -90,7 +91,7 @@ int vtkMergeViewsFilter::RequestData(
     std::multimap<std::string, std::size_t> ofImage;
     for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)
     {
-      vtkMultiBlockDataSet* input = vtkMultiBlockDataSet::GetData(inputVector[0], i);
+      const auto input = freespace::ViewsOf(inputVector[0], i);
       const std::vector<freespace::View> own = freespace::ViewsFromBlocks(input);
       for (unsigned int k = 0; k < input->GetNumberOfBlocks(); ++k)
       {

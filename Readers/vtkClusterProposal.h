@@ -54,6 +54,10 @@ public:
       this->Modified();
     }
   }
+  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
+  {
+    this->SetFileName(std::string(fileName ? fileName : ""));
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
@@ -70,6 +74,10 @@ public:
       this->Modified();
     }
   }
+  void SetModel(VTK_FILEPATH const char* model) // null is none
+  {
+    this->SetModel(std::string(model ? model : ""));
+  }
   vtkGetMacro(Model, std::string);
   virtual void SetImages(VTK_FILEPATH const std::string& images)
   {
@@ -78,6 +86,10 @@ public:
       this->Images = images;
       this->Modified();
     }
+  }
+  void SetImages(VTK_FILEPATH const char* images) // null is none
+  {
+    this->SetImages(std::string(images ? images : ""));
   }
   vtkGetMacro(Images, std::string);
   ///@}

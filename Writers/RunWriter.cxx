@@ -2,6 +2,7 @@
 #include "RunWriter.h"
 
 #include "Common/Error.h"
+#include "Files/AtomicOutput.h"
 
 #include <vtkErrorCode.h>
 #include <vtkWriter.h>
@@ -9,7 +10,8 @@
 namespace freespace
 {
 
-unsigned long RunWriter(vtkWriter* writer, const std::function<void()>& write)
+unsigned long RunWriter(
+  vtkWriter* writer, const std::string& fileName, const std::function<void()>& write)
 {
   try
   {
@@ -20,10 +22,15 @@ unsigned long RunWriter(vtkWriter* writer, const std::function<void()>& write)
   {
     return vtkErrorCode::UserError;
   }
+  catch (const NoRoom& error)
+  {
+    vtkErrorWithObjectMacro(writer, << error.what());
+    return vtkErrorCode::OutOfDiskSpaceError;
+  }
   catch (const std::exception& error)
   {
     vtkErrorWithObjectMacro(writer, << error.what());
-    return vtkErrorCode::CannotOpenFileError;
+    return fileName.empty() ? vtkErrorCode::NoFileNameError : vtkErrorCode::CannotOpenFileError;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "vtkFeatureOverlayWriter.h"
 
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Files/FileNames.h"
 #include "Images/FeatureOverlay.h"
@@ -48,17 +49,21 @@ void MakeFolder(const std::string& folder)
 
 int vtkFeatureOverlayWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   return 1;
 }
 
 void vtkFeatureOverlayWriter::WriteData()
 {
-  this->SetErrorCode(freespace::RunWriter(this,
+  this->SetErrorCode(freespace::RunWriter(this, this->OutputFolder,
     [&]
     {
+      if (this->OutputFolder.empty())
+      {
+        throw freespace::Error("Cannot write pictures: their folder has no name.");
+      }
       const freespace::Progress progress = freespace::AlgorithmProgress(this);
-      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      const auto blocks = freespace::ViewsOf(this->GetInput());
       const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
       std::vector<std::string> names;
       for (const freespace::View& view : views)

@@ -43,6 +43,10 @@ public:
       this->Modified();
     }
   }
+  void SetImagesFolder(VTK_FILEPATH const char* imagesFolder) // null is none
+  {
+    this->SetImagesFolder(std::string(imagesFolder ? imagesFolder : ""));
+  }
   vtkGetMacro(ImagesFolder, std::string);
   ///@}
 
@@ -57,6 +61,10 @@ public:
       this->OutputFolder = outputFolder;
       this->Modified();
     }
+  }
+  void SetOutputFolder(VTK_FILEPATH const char* outputFolder) // null is none
+  {
+    this->SetOutputFolder(std::string(outputFolder ? outputFolder : ""));
   }
   vtkGetMacro(OutputFolder, std::string);
   ///@}

@@ -6,6 +6,7 @@
 #include "Common/FileExtension.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 #include "Freespace/FreespaceUnion.h"
@@ -256,13 +257,13 @@ vtkOccupancyMapWriter::vtkOccupancyMapWriter()
 
 int vtkOccupancyMapWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   return 1;
 }
 
 void vtkOccupancyMapWriter::WriteData()
 {
-  this->SetErrorCode(RunWriter(this,
+  this->SetErrorCode(RunWriter(this, this->FileName,
     [&]
     {
       const std::string ending = LowerCaseExtension(this->FileName);
@@ -276,7 +277,7 @@ void vtkOccupancyMapWriter::WriteData()
       options.minimumViews = this->MinimumViews;
       options.Check();
       AtomicOutput target(this->FileName);
-      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      const auto blocks = freespace::ViewsOf(this->GetInput());
       const freespace::Progress progress = AlgorithmProgress(this);
       vtkNew<vtkFreespaceUnion> phi;
       phi->SetMaps(blocks);

@@ -2,6 +2,7 @@
 #include "vtkSparseModelWriter.h"
 
 #include "Common/Error.h"
+#include "Data/ViewInput.h"
 #include "RunWriter.h"
 #include "SparseModel/ColmapModel.h"
 #include "SparseModelBlocks.h"
@@ -14,17 +15,21 @@ vtkStandardNewMacro(vtkSparseModelWriter);
 
 int vtkSparseModelWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   return 1;
 }
 
 void vtkSparseModelWriter::WriteData()
 {
-  this->SetErrorCode(freespace::RunWriter(this,
+  this->SetErrorCode(freespace::RunWriter(this, this->FileName,
     [&]
     {
+      if (this->FileName.empty())
+      {
+        throw freespace::Error("Cannot write the camera model: its folder has no name.");
+      }
       const freespace::SparseModel model =
-        freespace::ModelFromBlocks(vtkMultiBlockDataSet::SafeDownCast(this->GetInput()));
+        freespace::ModelFromBlocks(freespace::ViewsOf(this->GetInput()));
       freespace::WriteColmapModel(model, this->FileName,
         this->Binary ? freespace::ColmapFormat::Binary : freespace::ColmapFormat::Text);
     }));

@@ -93,7 +93,7 @@ int vtkSurfaceWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkSurfaceWriter::WriteData()
 {
   auto* surface = vtkPolyData::SafeDownCast(this->GetInput());
-  this->SetErrorCode(freespace::RunWriter(this,
+  this->SetErrorCode(freespace::RunWriter(this, this->FileName,
     [&]
     {
       if (!CanWriteFile(this->FileName))

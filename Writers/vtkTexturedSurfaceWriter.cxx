@@ -114,7 +114,7 @@ void vtkTexturedSurfaceWriter::WriteData()
 {
   auto* surface = vtkPolyData::SafeDownCast(this->GetInputDataObject(0, 0));
   auto* texture = vtkImageData::SafeDownCast(this->GetInputDataObject(1, 0));
-  this->SetErrorCode(freespace::RunWriter(this,
+  this->SetErrorCode(freespace::RunWriter(this, this->FileName,
     [&]
     {
       if (!CanWriteFile(this->FileName))

@@ -4,6 +4,7 @@
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Files/NameEncoding.h"
 #include "RunWriter.h"
 
@@ -70,13 +71,13 @@ void NumberParts(const freespace::AtomicOutput& target, const std::string& fileN
 
 int vtkViewBlocksWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkMultiBlockDataSet");
+  freespace::AcceptViews(info);
   return 1;
 }
 
 void vtkViewBlocksWriter::WriteData()
 {
-  this->SetErrorCode(freespace::RunWriter(this,
+  this->SetErrorCode(freespace::RunWriter(this, this->FileName,
     [&]
     {
       if (std::filesystem::path(this->FileName).extension() != ".vtm")
@@ -85,7 +86,7 @@ void vtkViewBlocksWriter::WriteData()
           "Cannot write '" + this->FileName + "': the name of a file of views ends in .vtm.");
       }
       freespace::AtomicOutput target(this->FileName);
-      auto* blocks = vtkMultiBlockDataSet::SafeDownCast(this->GetInput());
+      const auto blocks = freespace::ViewsOf(this->GetInput());
       if (!blocks)
       {
         throw freespace::Error("Cannot write " + this->FileName + ": there are no views.");

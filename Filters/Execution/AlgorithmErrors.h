@@ -31,10 +31,10 @@ inline unsigned long ErrorCodeOf(const std::string& fileName)
   catch (...)
   {
     using Tools = vtksys::SystemTools;
-    return fileName.empty()                                   ? vtkErrorCode::NoFileNameError
-      : !Tools::PathExists(fileName)                          ? vtkErrorCode::FileNotFoundError
+    return fileName.empty()                                      ? vtkErrorCode::NoFileNameError
+      : !Tools::PathExists(fileName)                             ? vtkErrorCode::FileNotFoundError
       : !Tools::TestFileAccess(fileName, vtksys::TEST_FILE_READ) ? vtkErrorCode::CannotOpenFileError
-                                                              : vtkErrorCode::FileFormatError;
+                                                                 : vtkErrorCode::FileFormatError;
   }
 }
 

@@ -76,6 +76,24 @@ void DescribeProgram(CLI::App& program)
                  "'freespace COMMAND --help' tells the options of a command.");
 }
 
+void AddCommands(CLI::App& program, freespace::Session& session)
+{
+  freespace::AddReconstructCommand(program, session);
+  freespace::AddSparseCommand(program, session);
+  freespace::AddCalibrateCommand(program, session);
+  freespace::AddClustersCommand(program, session);
+  freespace::AddRefineCommand(program, session);
+  freespace::AddStereoCommand(program, session);
+  freespace::AddTriangulateCommand(program, session);
+  freespace::AddContourCommand(program, session);
+  freespace::AddQueryCommand(program, session);
+  freespace::AddRenderCommand(program, session);
+  freespace::AddTextureCommand(program, session);
+  freespace::AddOccupancyCommand(program, session);
+  freespace::AddReportCommand(program, session);
+  freespace::AddViewCommand(program, session);
+}
+
 // A section of the config file runs the command that it is named after, unless the command line names
 // one itself: then that one's section counts.
 void LetConfigRunCommands(CLI::App& program, int argc, char* argv[])
@@ -179,20 +197,7 @@ int Run(int argc, char* argv[])
   program.add_option("--save-config", configToSave, "Write all options of this run to a file")
     ->configurable(false)
     ->type_name("FILE.ini");
-  freespace::AddReconstructCommand(program, session);
-  freespace::AddSparseCommand(program, session);
-  freespace::AddCalibrateCommand(program, session);
-  freespace::AddClustersCommand(program, session);
-  freespace::AddRefineCommand(program, session);
-  freespace::AddStereoCommand(program, session);
-  freespace::AddTriangulateCommand(program, session);
-  freespace::AddContourCommand(program, session);
-  freespace::AddQueryCommand(program, session);
-  freespace::AddRenderCommand(program, session);
-  freespace::AddTextureCommand(program, session);
-  freespace::AddOccupancyCommand(program, session);
-  freespace::AddReportCommand(program, session);
-  freespace::AddViewCommand(program, session);
+  AddCommands(program, session);
   LetConfigRunCommands(program, argc, argv);
   if (argc == 3 && argv[1] == std::string("--write-documentation")) // for the build
   {

@@ -66,7 +66,9 @@ PyObject* Update(PyObject*, PyObject* arguments)
     return nullptr;
   }
   const bool isDone = CallUnlocked(
-    [&] { phi ? phi->Update() : port == 0 ? algorithm->Update() : algorithm->Update(port); });
+    [&] { phi           ? phi->Update()
+            : port == 0 ? algorithm->Update()
+                        : algorithm->Update(port); });
   return isDone ? Py_NewRef(Py_None) : nullptr;
 }
 
@@ -146,19 +148,17 @@ PyObject* SpheresFree(PyObject*, PyObject* arguments)
 {
   return AskPairs<vtkDoubleArray, vtkUnsignedCharArray>(arguments, "vtkDoubleArray",
     "vtkUnsignedCharArray",
-    [](vtkFreespaceUnion* phi, vtkPoints* centers, vtkDoubleArray* radii, vtkUnsignedCharArray* free)
-    { phi->AreSpheresFree(centers, radii, free); });
+    [](vtkFreespaceUnion* phi, vtkPoints* centers, vtkDoubleArray* radii,
+      vtkUnsignedCharArray* free) { phi->AreSpheresFree(centers, radii, free); });
 }
 
-PyMethodDef Methods[] = {
-  { "update", Update, METH_VARARGS, "update(algorithm_or_union, port)" },
+PyMethodDef Methods[] = { { "update", Update, METH_VARARGS, "update(algorithm_or_union, port)" },
   { "write", Write, METH_O, "write(writer) -> int" },
   { "points_free", PointsFree, METH_VARARGS, "points_free(phi, points, results)" },
   { "point_states", PointStates, METH_VARARGS, "point_states(phi, points, results)" },
   { "first_blocked", FirstBlocked, METH_VARARGS, "first_blocked(phi, first, last, results)" },
   { "spheres_free", SpheresFree, METH_VARARGS, "spheres_free(phi, centers, radii, results)" },
-  { nullptr, nullptr, 0, nullptr }
-};
+  { nullptr, nullptr, 0, nullptr } };
 
 PyModuleDef Module = { PyModuleDef_HEAD_INIT, "_unlocked",
   "Calls that take long, without Python's lock.", -1, Methods, nullptr, nullptr, nullptr, nullptr };

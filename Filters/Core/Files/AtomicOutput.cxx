@@ -254,9 +254,9 @@ void AtomicOutput::Write(const void* bytes, std::size_t count) const
   }
 }
 
-Error AtomicOutput::Failure() const
+NoRoom AtomicOutput::Failure() const
 {
-  return Error("Cannot write " + this->Target.string() +
+  return NoRoom("Cannot write " + this->Target.string() +
     ": the disk is full, or the file is larger than is allowed.");
 }
 

@@ -11,6 +11,13 @@
 namespace freespace
 {
 
+/// Thrown where there is no room for an output.
+class NoRoom : public Error
+{
+public:
+  using Error::Error;
+};
+
 /// A folder beside a target in which its files are made, so that the target is either the old one or
 /// the whole new one, also when the process is killed at any moment. What was not committed is removed by the
 /// destructor, or by the next run.
@@ -36,7 +43,7 @@ public:
   void Write(const void* bytes, std::size_t count) const;
 
   /// What to throw where the target could not be written.
-  Error Failure() const;
+  NoRoom Failure() const;
 
   /// Moves all that was written into the target's folder. Folders beside a target, such as the NAME of
   /// NAME.vtm, may be somebody's own: what they hold stays, but for NAME_0.vtp, NAME_1.vtp, ..., the

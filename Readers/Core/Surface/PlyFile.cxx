@@ -106,7 +106,7 @@ private:
     }
     const std::size_t end = std::min(this->Content.find('\n', this->At), this->Content.size());
     std::string_view line = std::string_view(this->Content).substr(this->At, end - this->At);
-    this->At = end + 1;
+    this->At = std::min(end + 1, this->Content.size()); // the last line may lack its end
     if (!line.empty() && line.back() == '\r')
     {
       line.remove_suffix(1);

@@ -44,6 +44,8 @@ def _property(base, setter):
 
 def _taking_paths(method):
     def call(self, *arguments):
+        if arguments == (None,): # no name, as a null pointer is in C++
+            arguments = ('',)
         return method(self, *(os.fspath(a) if isinstance(a, os.PathLike) else a for a in arguments))
     call.__name__, call.__doc__ = method.__name__, method.__doc__
     return call
