@@ -18,11 +18,27 @@
 #include <sstream>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace
 {
 
 constexpr int failed = 1;
 constexpr int misused = 2;
+
+// Every image has index lists and rasters of some megabytes. Left to itself, malloc gives each back to the
+// system, which clears the pages anew for the next image: that was half of the time of the stereo.
+void KeepFreedMemory()
+{
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte); // the greatest that malloc takes
+  mallopt(M_TRIM_THRESHOLD, 512 * mebibyte);
+  mallopt(M_TOP_PAD, 64 * mebibyte);
+#endif
+}
 
 // One line, whatever the names in it hold.
 void Complain(const std::string& sentence)
@@ -241,6 +257,7 @@ int Run(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  KeepFreedMemory();
   freespace::ListenToInterrupts();
   // Of the processes that mpiexec started only the first one prints.
   if (freespace::LaunchedRank() > 0)
