@@ -21,8 +21,9 @@ constexpr double Noise = 0.5;
 // levels are less certain for it.
 constexpr double PlaceDeviation = 0.1;
 
-// Images are smoothed and interpolated, so that a window has fewer independent values than pixels.
-constexpr double PixelsPerValue = 2.5;
+// Images are smoothed and interpolated, and a surface is not quite a plane, so that a window has fewer
+// independent values than pixels: with so many, the errors on scenes with truth are as large as the deviations.
+constexpr double PixelsPerValue = 13;
 
 // Of the Gaussian with which pixels count less towards the rim of a window, as a fraction of its radius.
 constexpr double Falloff = 0.72;
@@ -52,10 +53,9 @@ double Deviation(double sum, double squares, double count)
 // A square of pixels of the reference around the one that holds the plane's, row by row.
 struct PatchAligner::Window
 {
-  int radius = 0;
   Vector2d center;     // of the middle pixel, in pixels of the camera
-  Values values;       // zero mean
-  Values weights;      // of squared residuals
+  Values values{};     // zero mean
+  Values weights{};    // of squared residuals
   double contrast = 0; // standard deviation
 };
 
@@ -76,6 +76,7 @@ PatchAligner::PatchAligner(const Image& reference, const std::vector<Image>& par
   , FocalLength(reference.camera.K(0, 0))
   , Scale(scale)
   , Options(options)
+  , Pixels(options.radius)
 {
   const Matrix3d toScale = Vector3d(scale, scale, 1).asDiagonal();
   for (const Image& image : partners)
@@ -90,7 +91,7 @@ PatchAligner::PatchAligner(const Image& reference, const std::vector<Image>& par
 
 bool PatchAligner::Read(const Vector2d& pixel, Window& window) const
 {
-  const int radius = window.radius = this->Options.radius;
+  const int radius = this->Options.radius;
   const int column = static_cast<int>(std::floor(this->Scale * pixel.x()));
   const int row = static_cast<int>(std::floor(this->Scale * pixel.y()));
   if (column <= radius || row <= radius || column + radius + 1 >= this->Reference.cols ||
@@ -137,69 +138,32 @@ bool PatchAligner::Read(const Vector2d& pixel, Window& window) const
 bool PatchAligner::Warp(const Partner& partner, const Window& window, const PatchPlane& plane,
   Values& values, Values& slopes) const
 {
-  const int size = 2 * window.radius + 1;
   const double step = 1 / this->Scale;
-  const Vector3d alongRow = step * (partner.H.col(0) + plane.slope.x() * partner.epipole);
-  const Eigen::Vector3f b = alongRow.cast<float>(), e = partner.epipole.cast<float>();
-  const cv::Mat1f& image = partner.grey;
-  const float lastColumn = static_cast<float>(image.cols) - 1.5f;
-  const float lastRow = static_cast<float>(image.rows) - 1.5f;
-  float px[15], py[15], dx[15], dy[15];
-  for (int y = 0; y < size; ++y)
+  const Vector3d origin =
+    partner.H * window.center.homogeneous() + plane.At(window.center) * partner.epipole;
+  const Vector3d alongColumn = step * (partner.H.col(0) + plane.slope.x() * partner.epipole);
+  const Vector3d alongRow = step * (partner.H.col(1) + plane.slope.y() * partner.epipole);
+  PlaneWarp warp;
+  for (int i = 0; i < 3; ++i)
   {
-    const Vector2d first = window.center + step * Vector2d(-window.radius, y - window.radius);
-    const Eigen::Vector3f a =
-      (partner.H * first.homogeneous() + plane.At(first) * partner.epipole).cast<float>();
-    bool isInside = true;
-    for (int x = 0; x < size; ++x)
-    {
-      const float inverse = 1 / (a.z() + x * b.z());
-      px[x] = (a.x() + x * b.x()) * inverse;
-      py[x] = (a.y() + x * b.y()) * inverse;
-      // A greater disparity moves a point towards the epipole.
-      dx[x] = (e.x() - px[x] * e.z()) * inverse;
-      dy[x] = (e.y() - py[x] * e.z()) * inverse;
-      isInside &= inverse > 0 && px[x] >= 0.5f && py[x] >= 0.5f && px[x] < lastColumn + 1 &&
-        py[x] < lastRow + 1;
-    }
-    if (!isInside)
-    {
-      return false;
-    }
-    for (int x = 0; x < size; ++x)
-    {
-      const float atX = px[x] - 0.5f, atY = py[x] - 0.5f;
-      const int left = std::min(static_cast<int>(atX), image.cols - 2);
-      const int top = std::min(static_cast<int>(atY), image.rows - 2);
-      const float fx = atX - left, fy = atY - top;
-      const float* upper = image[top] + left;
-      const float* lower = image[top + 1] + left;
-      const float upperStep = upper[1] - upper[0], lowerStep = lower[1] - lower[0];
-      const float above = upper[0] + fx * upperStep, below = lower[0] + fx * lowerStep;
-      values[y * size + x] = above + fy * (below - above);
-      slopes[y * size + x] =
-        (upperStep + fy * (lowerStep - upperStep)) * dx[x] + (below - above) * dy[x];
-    }
+    warp.origin[i] = static_cast<float>(origin[i]);
+    warp.alongColumn[i] = static_cast<float>(alongColumn[i]);
+    warp.alongRow[i] = static_cast<float>(alongRow[i]);
+    warp.perDisparity[i] = static_cast<float>(partner.epipole[i]);
   }
-  return true;
+  return WarpWindow(this->Pixels, warp, partner.grey, values, slopes);
 }
 
 // Adds a partner to the equations, in grey levels of the reference.
 void PatchAligner::Add(const Window& window, const PatchPlane& plane, const Values& values,
   const Values& slopes, Equations& equations) const
 {
-  const int size = 2 * window.radius + 1, count = size * size;
-  float sum = 0, squares = 0, product = 0, slopeSum = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    sum += values[i];
-    squares += values[i] * values[i];
-    product += values[i] * window.values[i];
-    slopeSum += slopes[i];
-  }
-  const double contrast = Deviation(sum, squares, count);
-  const double correlation =
-    contrast > 0 && window.contrast > 0 ? product / (count * contrast * window.contrast) : 0;
+  const int count = this->Pixels.count;
+  const WindowMoments moments = MomentsOf(this->Pixels, values, slopes, window.values);
+  const double contrast = Deviation(moments.value, moments.square, count);
+  const double correlation = contrast > 0 && window.contrast > 0
+    ? moments.product / (count * contrast * window.contrast)
+    : 0;
   if (correlation < LeastCorrelation)
   {
     return;
@@ -209,44 +173,23 @@ void PatchAligner::Add(const Window& window, const PatchPlane& plane, const Valu
     ++equations.good;
     equations.correlation += correlation;
   }
-  const float gain = static_cast<float>(window.contrast / contrast);
-  const float mean = sum / count, slopeMean = slopeSum / count;
-  const double step = 1 / this->Scale, du = window.center.x() - plane.pixel.x();
-  Matrix3d normal = Matrix3d::Zero();
-  Vector3d right = Vector3d::Zero();
-  double residuals = 0;
-  for (int y = 0; y < size; ++y)
-  {
-    float s = 0, sx = 0, sxx = 0, r = 0, rx = 0, rr = 0;
-    for (int x = 0; x < size; ++x)
-    {
-      const int i = y * size + x;
-      const float slope = gain * (slopes[i] - slopeMean), column = float(x - window.radius);
-      const float residual = gain * (values[i] - mean) - window.values[i];
-      const float weighted = window.weights[i] * slope;
-      s += weighted * slope;
-      sx += weighted * slope * column;
-      sxx += weighted * slope * column * column;
-      r += weighted * residual;
-      rx += weighted * residual * column;
-      rr += window.weights[i] * residual * residual;
-    }
-    // From columns about the window's middle to pixels about the plane's.
-    const double v = window.center.y() + step * (y - window.radius) - plane.pixel.y();
-    const double su = du * s + step * sx;
-    const double suu = du * du * s + 2 * du * step * sx + step * step * sxx;
-    const double ru = du * r + step * rx;
-    Matrix3d row;
-    row << s, su, s * v, su, suu, su * v, s * v, su * v, s * v * v;
-    normal += row;
-    right += Vector3d(r, ru, r * v);
-    residuals += rr;
-  }
+  const WindowSums sums = SumWindow(this->Pixels, values, slopes, window.values, window.weights,
+    static_cast<float>(window.contrast / contrast), moments.value / count, moments.slope / count);
+  // From columns and rows about the window's middle to pixels about the plane's.
+  const double step = 1 / this->Scale;
+  const double u = window.center.x() - plane.pixel.x(), v = window.center.y() - plane.pixel.y();
+  const double su = u * sums.s + step * sums.sc, sv = v * sums.s + step * sums.sr;
+  const double suu = u * u * sums.s + 2 * u * step * sums.sc + step * step * sums.scc;
+  const double svv = v * v * sums.s + 2 * v * step * sums.sr + step * step * sums.srr;
+  const double suv = u * v * sums.s + step * (u * sums.sr + v * sums.sc) + step * step * sums.scr;
+  Matrix3d normal;
+  normal << sums.s, su, sv, su, suu, suv, sv, suv, svv;
+  const Vector3d right(sums.r, u * sums.r + step * sums.rc, v * sums.r + step * sums.rr);
   // What agrees better counts more.
   const double weight = correlation * correlation;
   equations.normal += weight * normal;
   equations.right -= weight * right;
-  equations.residuals += weight * residuals;
+  equations.residuals += weight * sums.residuals;
   equations.weight += weight;
 }
 
@@ -276,7 +219,7 @@ AlignedPatch PatchAligner::Align(const PatchPlane& initial) const
   {
     return result;
   }
-  const double size = 2 * window.radius + 1;
+  const double size = 2 * this->Options.radius + 1;
   const double turn = SlopeDeviation * initial.disparity / this->FocalLength;
   Values values, slopes;
   for (int iteration = 0;; ++iteration)
@@ -303,7 +246,7 @@ AlignedPatch PatchAligner::Align(const PatchPlane& initial) const
       return result;
     }
     const double atRim =
-      std::abs(change[0]) + window.radius / this->Scale * change.tail<2>().norm();
+      std::abs(change[0]) + this->Options.radius / this->Scale * change.tail<2>().norm();
     if (iteration == this->Options.iterations || atRim * parallax < Still)
     {
       result.deviation = std::sqrt(std::max(0.0, covariance(0, 0)));

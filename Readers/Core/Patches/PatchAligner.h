@@ -4,6 +4,7 @@
 
 #include "Common/Camera.h"
 #include "Patches/PatchOptions.h"
+#include "Patches/WindowWarp.h"
 
 #include <opencv2/core.hpp>
 
@@ -71,8 +72,7 @@ private:
     Eigen::Vector3d epipole;
     cv::Mat1f grey;
   };
-  static constexpr int MostPixels = 15 * 15;
-  using Values = std::array<float, MostPixels>;
+  using Values = WindowPixels::Values;
   struct Window;
   struct Equations;
 
@@ -87,6 +87,7 @@ private:
   std::vector<Partner> Partners;
   double Scale;
   PatchOptions Options;
+  WindowPixels Pixels;
 };
 
 }

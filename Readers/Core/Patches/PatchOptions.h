@@ -18,7 +18,7 @@ struct PatchOptions
   double leastContrast =
     1.0;                  ///< standard deviation of the grey levels in the middle of a window; > 0
   double mostShift = 3.0; ///< how far a patch may move in a partner, pixels; > 0
-  double mostDeviation = 0.15; ///< standard deviation along the epipolar line, pixels; > 0
+  double mostDeviation = 0.35; ///< standard deviation along the epipolar line, pixels; > 0
   double mostRoughness = 0.5; ///< of the features around a patch: their standard deviation from its
                               ///< plane, pixels along the epipolar line; > 0
 

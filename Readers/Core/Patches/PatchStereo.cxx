@@ -130,8 +130,8 @@ std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Vector
     {
       const cv::Vec3b& color =
         photograph->color(static_cast<int>(place.y()), static_cast<int>(place.x()));
-      found.push_back({ place, patch.plane.disparity, std::max(0.0, 1 - patch.correlation),
-        { color[2], color[1], color[0] } });
+      found.push_back({ place, patch.plane.disparity, patch.deviation,
+        std::max(0.0, 1 - patch.correlation), { color[2], color[1], color[0] } });
     }
   }
   return found;

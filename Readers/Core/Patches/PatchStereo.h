@@ -18,6 +18,7 @@ struct PatchFeature
 {
   Eigen::Vector2d imagePoint;
   double disparity = 0;                   ///< 1 / depth
+  double deviation = 0;                   ///< standard deviation of the disparity
   double cost = 0;                        ///< 1 - correlation, 0 (perfect) to 1
   std::array<std::uint8_t, 3> color = {}; ///< red, green, blue
 };
