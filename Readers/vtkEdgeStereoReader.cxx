@@ -108,10 +108,11 @@ std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene&
   const freespace::SparseModel& model = checked.model;
   const bool isWanted = mode == vtkEdgeStereoReader::REFINE_ALWAYS ||
     (mode == vtkEdgeStereoReader::REFINE_SMALL_SCENES && model.images.size() <= small);
-  return isWanted ? freespace::RefineCameras(checked.given, model, edges, matching,
-                      freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress)
-                      .images
-                  : freespace::CalibratedImages(model);
+  return isWanted
+    ? freespace::RefineCameras(checked.given, model, edges, matching,
+        freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress, checked.tracks)
+        .images
+    : freespace::CalibratedImages(model);
 }
 
 }

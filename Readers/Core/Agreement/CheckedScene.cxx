@@ -84,7 +84,7 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
     LeaveOut(NamesOf(misprojected), checked);
   }
   const auto wrong = check ? FindWrongImages(checked.given, checked.model, edges, matching,
-                               WrongImageOptions(), parallelFor, progress)
+                               WrongImageOptions(), parallelFor, progress, &checked.tracks)
                            : std::vector<std::string>();
   if (!wrong.empty())
   {
@@ -94,6 +94,7 @@ CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptio
       "the camera is wrong: " +
       Joined(wrong));
     LeaveOut({ wrong.begin(), wrong.end() }, checked);
+    checked.tracks.clear(); // their indices were those of all images
   }
   checked.scene = checked.given;
   if (checked.scene.clusters.empty())

@@ -14,11 +14,12 @@ namespace freespace
 /// A scene without the images that do not fit the others.
 struct CheckedScene
 {
-  Scene given;        ///< with the clusters that its file names, if it does, of right images
-  Scene scene;        ///< the same, or with proposed clusters
-  SparseModel model;  ///< of the right images
-  std::string choice; ///< what DescribeChoice says about proposed clusters
-  std::string scaled; ///< what ScaleToPhotographs says
+  Scene given;          ///< with the clusters that its file names, if it does, of right images
+  Scene scene;          ///< the same, or with proposed clusters
+  SparseModel model;    ///< of the right images
+  std::string choice;   ///< what DescribeChoice says about proposed clusters
+  std::string scaled;   ///< what ScaleToPhotographs says
+  ClusterTracks tracks; ///< what FindWrongImages matched; none where it found some
   std::vector<std::string> warnings; ///< a sentence each, which names the images that are left out
 };
 

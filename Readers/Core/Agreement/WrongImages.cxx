@@ -52,11 +52,12 @@ class AgreementMeter
 {
 public:
   AgreementMeter(EdgeStore& edges, const std::vector<CalibratedImage>& images,
-    const MatcherOptions& matching, const WrongImageOptions& options)
+    const MatcherOptions& matching, const WrongImageOptions& options, ClusterTracks* tracks)
     : Edges(edges)
     , Images(images)
     , Matching(matching)
     , Options(options)
+    , Tracks(tracks)
   {
     this->Matching.tolerance = options.tolerance;
   }
@@ -73,15 +74,25 @@ public:
       }
     }
     std::vector<ImageAgreement> found(unknown.size());
+    std::vector<std::vector<EdgeTrack>> tracks(unknown.size());
     ParallelForWithProgress(unknown.size(), parallelFor, progress,
       [&](std::size_t i, const CancellationFlag& stop)
       {
-        found[i] = AgreementOf(MatchCluster(this->Edges, this->Images, *unknown[i], this->Matching,
-          this->Options.tokensPerImage, stop));
+        const ClusterMatches matches = MatchCluster(this->Edges, this->Images, *unknown[i],
+          this->Matching, this->Options.tokensPerImage, stop);
+        found[i] = AgreementOf(matches);
+        if (this->Tracks)
+        {
+          tracks[i] = TracksOfCluster(matches, this->Options.tracksPerImage);
+        }
       });
     for (std::size_t i = 0; i < unknown.size(); ++i)
     {
       this->Known[unknown[i]->triplets] = found[i];
+      if (this->Tracks)
+      {
+        (*this->Tracks)[unknown[i]->triplets] = std::move(tracks[i]);
+      }
     }
     std::vector<ImageAgreement> all;
     for (const Cluster& cluster : clusters)
@@ -96,6 +107,7 @@ private:
   const std::vector<CalibratedImage>& Images;
   MatcherOptions Matching;
   const WrongImageOptions& Options;
+  ClusterTracks* Tracks;
   std::map<decltype(Cluster::triplets), ImageAgreement> Known;
 };
 
@@ -112,11 +124,11 @@ void WrongImageOptions::Check() const
 
 std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& model,
   EdgeStore& edges, const MatcherOptions& matching, const WrongImageOptions& options,
-  const ParallelFor& parallelFor, const Progress& progress)
+  const ParallelFor& parallelFor, const Progress& progress, ClusterTracks* tracks)
 {
   options.Check();
   const std::vector<CalibratedImage> images = CalibratedImages(model);
-  AgreementMeter meter(edges, images, matching, options);
+  AgreementMeter meter(edges, images, matching, options, tracks);
   const auto judge = [&](const std::set<std::string>& without, const Progress& part)
   {
     const auto clusters = ClustersForRefinement(

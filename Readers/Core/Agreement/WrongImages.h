@@ -5,6 +5,7 @@
 #include "Common/ParallelFor.h"
 #include "Common/Progress.h"
 #include "Matching/MatcherOptions.h"
+#include "Refinement/EdgeTracks.h"
 #include "Scene/Scene.h"
 #include "Stereo/EdgeStore.h"
 
@@ -22,7 +23,8 @@ struct WrongImageOptions
   double tolerance =
     1.5; ///< of a third image's confirmation, pixels: as far as right cameras may be
          ///< off; > 0
-  std::size_t tokensPerImage = 4000; ///< edge tokens that are matched, about; > 0
+  std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
+  std::size_t tracksPerImage = 400;   ///< that are kept of the matches; > 0
   int rounds = 3; ///< at most: without the wrong ones the others have better neighbours; > 0
 
   /// Throws Error when a field is out of its range.
@@ -33,10 +35,13 @@ struct WrongImageOptions
 /// order: photographs that are upside down or under another's name, and wrong cameras. The edges of each
 /// image are matched with those of its neighbours. The same result for any number of threads.
 ///
+/// tracks: those of the clusters that were matched, `tracksPerImage` of each, for RefineCameras, which matches
+/// the same clusters in the same way at first; the images' indices are those of this model. Null: not wanted.
+///
 /// Throws Error as MatchCluster does, and Aborted when the progress says so.
 std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& model,
   EdgeStore& edges, const MatcherOptions& matching, const WrongImageOptions& options,
-  const ParallelFor& parallelFor, const Progress& progress);
+  const ParallelFor& parallelFor, const Progress& progress, ClusterTracks* tracks = nullptr);
 
 }
 

@@ -29,12 +29,19 @@ std::vector<int> LensesOf(const SparseModel& model)
 
 std::vector<EdgeTrack> MatchAll(EdgeStore& edges, const std::vector<CalibratedImage>& images,
   const std::vector<Cluster>& clusters, const MatcherOptions& matching,
-  const CameraRefinementOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+  const CameraRefinementOptions& options, const ClusterTracks& known,
+  const ParallelFor& parallelFor, const Progress& progress)
 {
   std::vector<std::vector<EdgeTrack>> found(clusters.size());
   ParallelForWithProgress(clusters.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
     {
+      const auto same = known.find(clusters[i].triplets);
+      if (same != known.end())
+      {
+        found[i] = same->second;
+        return;
+      }
       const ClusterMatches matches =
         MatchCluster(edges, images, clusters[i], matching, options.tokensPerImage, stop);
       found[i] = TracksOfCluster(matches, options.tracksPerImage);
@@ -93,7 +100,7 @@ void CameraRefinementOptions::Check() const
 
 CameraRefinement RefineCameras(const Scene& scene, const SparseModel& model, EdgeStore& edges,
   const MatcherOptions& matching, const CameraRefinementOptions& options,
-  const ParallelFor& parallelFor, const Progress& progress)
+  const ParallelFor& parallelFor, const Progress& progress, const ClusterTracks& known)
 {
   options.Check();
   const std::vector<CalibratedImage> given = CalibratedImages(model);
@@ -107,8 +114,9 @@ CameraRefinement RefineCameras(const Scene& scene, const SparseModel& model, Edg
   for (int k = 0; k < options.rounds && !clusters.empty(); ++k, round.tolerance /= 2)
   {
     const double begin = double(k) / options.rounds, end = double(k + 1) / options.rounds;
-    std::vector<EdgeTrack> tracks = MatchAll(edges, result.images, clusters, round, options,
-      parallelFor, progress.Part(begin, begin + 0.6 * (end - begin)));
+    std::vector<EdgeTrack> tracks =
+      MatchAll(edges, result.images, clusters, round, options, k == 0 ? known : ClusterTracks(),
+        parallelFor, progress.Part(begin, begin + 0.6 * (end - begin)));
     result.tracks = tracks.size();
     BundleAdjustmentSummary summary;
     RunWithProgress(progress.Part(begin + 0.6 * (end - begin), end),

@@ -54,11 +54,14 @@ struct CameraRefinement
 /// Where the given cameras are exact, noise alone would move them: they stay, exactly, where
 /// the edges would move them by no more than that.
 ///
+/// known: tracks of some clusters that were matched with the given cameras, with the same options
+/// (FindWrongImages): they are not matched again.
+///
 /// `images` and `model` as ReadSceneModel gives them. Throws Error naming the file: an image that is
 /// missing, unreadable or of another size than its camera's. Throws Aborted.
 CameraRefinement RefineCameras(const Scene& scene, const SparseModel& model, EdgeStore& edges,
   const MatcherOptions& matching, const CameraRefinementOptions& options,
-  const ParallelFor& parallelFor, const Progress& progress);
+  const ParallelFor& parallelFor, const Progress& progress, const ClusterTracks& known = {});
 
 /// The model with the poses and focal lengths of these images, which are its own in its order.
 SparseModel WithCameras(SparseModel model, const std::vector<CalibratedImage>& images);

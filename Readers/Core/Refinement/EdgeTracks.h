@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <map>
 #include <vector>
 
 namespace freespace
@@ -27,6 +28,9 @@ struct EdgeTrack
   Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< world
   std::vector<EdgeObservation> observations;
 };
+
+/// The tracks of clusters, by their images.
+using ClusterTracks = std::map<decltype(Cluster::triplets), std::vector<EdgeTrack>>;
 
 /// Tracks of a cluster's matches that a third image confirms, about `most` of them, evenly taken.
 std::vector<EdgeTrack> TracksOfCluster(const ClusterMatches& cluster, std::size_t most);
