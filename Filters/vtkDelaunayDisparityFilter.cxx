@@ -7,6 +7,7 @@
 #include "Disparity/Background/BackgroundContinuation.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/FeatureCloud.h"
+#include "Disparity/FeatureThinning.h"
 #include "Disparity/LongTriangles.h"
 #include "Disparity/OutlierRejection.h"
 #include "Execution/AlgorithmErrors.h"
@@ -37,6 +38,7 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
   this->SupportingNeighbors = outliers.neighbors;
   this->SeeThroughViews = outliers.seeThroughViews;
   this->ViolatingFeatures = outliers.violatingFeatures;
+  this->FeatureSpacing = freespace::FeatureThinningOptions().spacing;
   const freespace::LongTrianglesOptions trim;
   this->LongestEdge = trim.longestEdge;
   this->GreatestDepthRatio = trim.greatestDepth;
@@ -63,6 +65,8 @@ int vtkDelaunayDisparityFilter::RequestData(
   outliers.neighbors = this->SupportingNeighbors;
   outliers.seeThroughViews = this->SeeThroughViews;
   outliers.violatingFeatures = this->ViolatingFeatures;
+  freespace::FeatureThinningOptions thinning;
+  thinning.spacing = this->FeatureSpacing;
   freespace::LongTrianglesOptions untrusted;
   untrusted.longestEdge = this->LongestEdge;
   untrusted.greatestDepth = this->GreatestDepthRatio;
@@ -71,14 +75,19 @@ int vtkDelaunayDisparityFilter::RequestData(
     const auto input = freespace::ViewsOf(inputVector[0]);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     untrusted.Check();
+    thinning.Check();
     std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    freespace::ParallelForWithProgress(views.size(), freespace::SMPParallelFor,
+      progress.Part(0.0, 0.02),
+      [&](std::size_t v, const freespace::CancellationFlag&)
+      { views[v] = freespace::ThinFeatures(views[v], thinning); });
     if (this->SupportingNeighbors != 0 || this->SeeThroughViews != 0 ||
       this->ViolatingFeatures != 0)
     {
       freespace::DelaunayDisparityOptions own = options;
       own.minimumDisparity = false;
       const std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-        views, own, freespace::SMPParallelFor, progress.Part(0.0, 0.15));
+        views, own, freespace::SMPParallelFor, progress.Part(0.02, 0.15));
       views = freespace::RejectOutliers(
         views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.15, 0.25));
     }
@@ -129,6 +138,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SupportingNeighbors: " << this->SupportingNeighbors << "\n";
   os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
   os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
+  os << indent << "FeatureSpacing: " << this->FeatureSpacing << "\n";
   os << indent << "LongestEdge: " << this->LongestEdge << "\n";
   os << indent << "GreatestDepthRatio: " << this->GreatestDepthRatio << "\n";
 }

@@ -3,7 +3,11 @@
  * @class vtkDelaunayDisparityFilter
  * @brief a triangulated disparity map for each view, under the minimum disparity constraint
  *
- * The filter works in four steps.
+ * The filter works in five steps.
+ *
+ * **Thinning.** Beyond the paper, features of one view that are closer than FeatureSpacing in the image, at one
+ * depth, become one: their mean, weighted by the inverse variances of the optional array `DisparityDeviation`
+ * (standard deviation of 1 / depth). Closer ones tell more of their noise than of the surface.
  *
  * **Outliers.** One outlier in front of the scene would reach every other view through the minimum
  * disparity constraint. A feature is dropped when fewer than SupportingNeighbors of the six nearest in its
@@ -33,7 +37,8 @@
  * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader, vtkSparseModelReader and
  * vtkFeatureSupportFilter generate it. Output: the same blocks with triangles. Point data: `ImagePoint`
  * (double x2, pixels) is the projection of the world point, which for a view's own features can differ
- * from where it was observed; `SourceView` (int) is the index of the view that supplied the point. Field
+ * from where it was observed; `SourceView` (int) is the index of the view that supplied the point;
+ * `DisparityDeviation` (double, where the input has it) is that of a view's own features, 0 elsewhere. Field
  * data pass. Features that are not finite, not in front of the camera, or outside the image are dropped.
  *
  * A view with fewer than three usable features, or with collinear ones only, is an error that names the
@@ -149,6 +154,15 @@ public:
 
   ///@{
   /**
+   * Side of the square cells of the image in which features of one depth become one, pixels. 0, the paper,
+   * keeps all. Default 3.
+   */
+  vtkSetMacro(FeatureSpacing, double);
+  vtkGetMacro(FeatureSpacing, double);
+  ///@}
+
+  ///@{
+  /**
    * Maximum edge length of a triangle in the image, pixels; a longer one claims no free space. 0, the
    * default and the paper, is no limit.
    */
@@ -182,6 +196,7 @@ protected:
   int SupportingNeighbors;
   int SeeThroughViews;
   int ViolatingFeatures;
+  double FeatureSpacing;
   double LongestEdge;
   double GreatestDepthRatio;
 

@@ -72,7 +72,9 @@ std::vector<freespace::SeenFeature> FeaturesOf(vtkMultiBlockDataSet* blocks)
     {
       if (map.sourceView[p] == static_cast<int>(i) && map.points[p].allFinite())
       {
-        features.push_back({ map.points[p], map.points[p] - eye });
+        const double deviation =
+          map.deviations.empty() ? 0 : map.deviations[p] * map.camera.Depth(map.points[p]);
+        features.push_back({ map.points[p], map.points[p] - eye, deviation });
       }
     }
   }

@@ -8,14 +8,17 @@
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -59,11 +62,21 @@ vtkSmartPointer<vtkPolyData> Merge(const Parts& parts)
 {
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  const bool haveDeviations = std::any_of(parts.blocks.begin(), parts.blocks.end(),
+    [](vtkPolyData* block) { return block->GetPointData()->HasArray("DisparityDeviation"); });
   for (vtkPolyData* block : parts.blocks)
   {
     vtkNew<vtkPolyData> withoutCellData; // which the parts seldom share
     withoutCellData->ShallowCopy(block);
     withoutCellData->GetCellData()->Initialize();
+    if (haveDeviations && !block->GetPointData()->HasArray("DisparityDeviation"))
+    {
+      vtkNew<vtkDoubleArray> unknown; // only arrays that all parts have are appended
+      unknown->SetName("DisparityDeviation");
+      unknown->SetNumberOfTuples(block->GetNumberOfPoints());
+      unknown->Fill(0);
+      withoutCellData->GetPointData()->AddArray(unknown);
+    }
     append->AddInputData(withoutCellData);
   }
   append->Update();

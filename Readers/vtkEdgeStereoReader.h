@@ -25,6 +25,7 @@
  * | PointData | ImagePoint       | double x2        | where the reference sees it, pixels            |
  * | PointData | RGB              | unsigned char x3 | its colour in the reference image              |
  * | PointData | EdgeDirection    | double x3        | of the edge in the world, unit length; 0: patch|
+ * | PointData | DisparityDeviation | double         | standard deviation of its 1 / depth            |
  * | PointData | MatchingCost     | double           | 0 (perfect) to 1                               |
  * | PointData | ChainId          | int              | number of its polyline; -1: a patch            |
  * | FieldData | CameraIntrinsics | double x9        | K of the reference, row-major                  |

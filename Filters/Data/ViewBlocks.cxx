@@ -140,6 +140,21 @@ Camera CameraFromBlock(vtkDataObject* block, const std::string& name)
 namespace
 {
 
+template <typename Array, typename Value, typename SetTuple>
+void AddPointArray(vtkPolyData* block, const char* name, int components,
+  const std::vector<Value>& values, SetTuple&& setTuple)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    setTuple(array, static_cast<vtkIdType>(i), values[i]);
+  }
+  block->GetPointData()->AddArray(array);
+}
+
 vtkSmartPointer<vtkPolyData> BlockWithPoints(const View& view)
 {
   auto block = vtkSmartPointer<vtkPolyData>::New();
@@ -158,23 +173,13 @@ vtkSmartPointer<vtkPolyData> BlockWithPoints(const View& view)
   }
   block->SetPoints(points);
   block->GetPointData()->AddArray(imagePoints);
+  if (!view.deviations.empty())
+  {
+    AddPointArray<vtkDoubleArray>(block, "DisparityDeviation", 1, view.deviations,
+      [](vtkDoubleArray* array, vtkIdType i, double deviation) { array->SetValue(i, deviation); });
+  }
   AddCamera(block, view.camera, view.imageFile);
   return block;
-}
-
-template <typename Array, typename Value, typename SetTuple>
-void AddPointArray(vtkPolyData* block, const char* name, int components,
-  const std::vector<Value>& values, SetTuple&& setTuple)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    setTuple(array, static_cast<vtkIdType>(i), values[i]);
-  }
-  block->GetPointData()->AddArray(array);
 }
 
 std::string ImageFileOf(vtkPolyData* block)
@@ -197,6 +202,20 @@ void ReadPoints(vtkPolyData* block, View& view)
   {
     block->GetPoint(i, view.points[i].data());
     imagePoints->GetTuple(i, view.imagePoints[i].data());
+  }
+  if (block->GetPointData()->HasArray("DisparityDeviation"))
+  {
+    vtkDataArray* deviations = PointArray(block, "DisparityDeviation", 1, view.name);
+    view.deviations.resize(count);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      view.deviations[i] = deviations->GetComponent(i, 0);
+      if (!(view.deviations[i] >= 0))
+      {
+        throw Error(
+          "View '" + view.name + "' has a DisparityDeviation that is negative or no number.");
+      }
+    }
   }
 }
 

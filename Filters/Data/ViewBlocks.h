@@ -22,6 +22,7 @@ namespace freespace
 /// |-----------|------------------|------------|
 /// | Points    |                  | double     |
 /// | PointData | ImagePoint       | double x2  |
+/// | PointData | DisparityDeviation | double, of 1 / depth; 0: not known (optional) |
 /// | PointData | SourceView       | int (maps) |
 /// | PointData | RGB              | unsigned char x3 (edge stereo) |
 /// | PointData | EdgeDirection    | double x3 (edge stereo)        |

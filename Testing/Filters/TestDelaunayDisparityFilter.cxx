@@ -3,6 +3,7 @@
 
 #include "Data/ViewBlocks.h"
 #include "Disparity/DelaunayDisparity.h"
+#include "Disparity/FeatureThinning.h"
 #include "Support/ErrorObserver.h"
 
 #include <vtkMultiBlockDataSet.h>
@@ -80,6 +81,7 @@ TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)
     vtkNew<vtkDelaunayDisparityFilter> filter;
     filter->SetInputDataObject(Blocks(views));
     filter->SetTolerance(0.002);
+    filter->SetFeatureSpacing(0);
     filter->ContinueBackgroundOff();
     filter->SetSupportingNeighbors(0);
     filter->Update();
@@ -93,6 +95,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   vtkNew<vtkDelaunayDisparityFilter> filter;
   filter->SetInputDataObject(Blocks(views));
   filter->MinimumDisparityOff();
+  filter->SetFeatureSpacing(0);
   filter->ContinueBackgroundOff();
   filter->SetSupportingNeighbors(0);
   filter->Update();
@@ -101,10 +104,41 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   EXPECT_EQ(maps[2].points, views[2].points);
   EXPECT_EQ(maps[2].sourceView, std::vector<int>(views[2].points.size(), 2));
 
+  constexpr double spacing = 40;
+  filter->SetFeatureSpacing(spacing);
+  filter->Update();
+  FeatureThinningOptions thinning;
+  thinning.spacing = spacing;
+  const View thin = ThinFeatures(views[2], thinning);
+  EXPECT_LT(thin.points.size(), views[2].points.size());
+  EXPECT_EQ(MapFromBlocks(filter->GetOutput(), 2).points, thin.points);
+
   std::ostringstream text;
   filter->Print(text);
   EXPECT_NE(text.str().find("MinimumDisparity: 0"), std::string::npos);
   EXPECT_NE(text.str().find("Tolerance: 0.0002"), std::string::npos);
+}
+
+TEST(DelaunayDisparityFilter, DeviationsAreThoseOfAViewsOwnFeatures)
+{
+  std::vector<View> views = MakeViews();
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    views[v].deviations.assign(views[v].points.size(), 0.001 * static_cast<double>(v + 1));
+  }
+  vtkNew<vtkDelaunayDisparityFilter> filter;
+  filter->SetInputDataObject(Blocks(views));
+  filter->Update();
+  const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
+  for (std::size_t v = 0; v < maps.size(); ++v)
+  {
+    ASSERT_EQ(maps[v].deviations.size(), maps[v].points.size());
+    for (std::size_t i = 0; i < maps[v].points.size(); ++i)
+    {
+      const bool isOwn = maps[v].sourceView[i] == static_cast<int>(v);
+      EXPECT_NEAR(maps[v].deviations[i], isOwn ? 0.001 * static_cast<double>(v + 1) : 0, 1e-12);
+    }
+  }
 }
 
 TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)

@@ -22,6 +22,9 @@ struct View
   std::vector<Eigen::Vector3d> points;      ///< features, world coordinates
   std::vector<Eigen::Vector2d> imagePoints; ///< their positions in the reference image, pixels
   std::vector<std::array<int, 2>> edges;    ///< pairs of features that an image edge joins
+  std::vector<double>
+    deviations; ///< standard deviations of the features' disparities (1 / depth), 0
+                ///< where not known; empty: nowhere
 };
 
 /// Attributes of the features of a view from edge stereo.

@@ -89,6 +89,7 @@ DisparityMap TriangulateWith(const View& view, int index, const FeatureCloud& cl
     {
       sighted[i] = static_cast<int>(own.size());
       sighting.point = view.points[i];
+      sighting.deviation = view.deviations.empty() ? 0 : view.deviations[i];
       own.push_back(sighting);
     }
   }

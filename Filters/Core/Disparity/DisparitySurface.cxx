@@ -363,6 +363,12 @@ void DisparitySurface<Triangulation>::Fill(DisparityMap& map) const
     map.points.push_back(sighting.point);
     map.imagePoints.emplace_back(sighting.pixel.x(), sighting.pixel.y());
     map.sourceView.push_back(sighting.sourceView);
+    map.deviations.push_back(sighting.deviation);
+  }
+  const auto isUnknown = [](double deviation) { return deviation == 0; };
+  if (std::all_of(map.deviations.begin(), map.deviations.end(), isUnknown))
+  {
+    map.deviations.clear();
   }
   for (const Face face : this->Delaunay.finite_face_handles())
   {

@@ -62,6 +62,7 @@ struct SightedPoint : Sighting
 {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   int sourceView = 0;
+  double deviation = 0; ///< standard deviation of an own feature's disparity; 0: not known
 };
 
 /// A feature of another view with its projection. Small, as there are many and few are inserted.

@@ -303,6 +303,7 @@ std::vector<View> RejectOutliers(const std::vector<View>& views,
     kept[v].points.clear();
     kept[v].imagePoints.clear();
     kept[v].edges.clear();
+    kept[v].deviations.clear();
     std::vector<int> newIndex(views[v].points.size(), -1);
     for (std::size_t i = 0; i < views[v].points.size(); ++i)
     {
@@ -311,6 +312,10 @@ std::vector<View> RejectOutliers(const std::vector<View>& views,
         newIndex[i] = static_cast<int>(kept[v].points.size());
         kept[v].points.push_back(views[v].points[i]);
         kept[v].imagePoints.push_back(views[v].imagePoints[i]);
+        if (!views[v].deviations.empty())
+        {
+          kept[v].deviations.push_back(views[v].deviations[i]);
+        }
       }
     }
     for (const auto& [a, b] : views[v].edges)

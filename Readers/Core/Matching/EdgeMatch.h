@@ -25,7 +25,8 @@ struct EdgeMatch
   double disparity = 0; ///< 1 / depth in the reference camera, from all rays together
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); ///< where the reference sees it: the token,
     ///< moved across the edge by the little that lets all rays meet best
-  double cost = 0; ///< mean over the images, in [0, 1]: colours, direction and distance
+  double deviation = 0; ///< standard deviation of the disparity
+  double cost = 0;      ///< mean over the images, in [0, 1]: colours, direction and distance
 };
 
 }

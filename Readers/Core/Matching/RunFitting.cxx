@@ -12,7 +12,8 @@ namespace freespace
 namespace
 {
 
-constexpr double LongestGap = 12; // within a run, pixels
+constexpr double LongestGap = 12;   // within a run, pixels
+constexpr double LeastNoise = 0.05; // of an edge's place, pixels
 
 class RunMatcher
 {
@@ -48,15 +49,22 @@ public:
       this->DropUnconfirmed(run);
       this->FitRun(run);
     }
-    const double limit = this->ResidualLimit(runs);
+    const double noise = this->MedianResidual(runs);
+    const double limit = this->ResidualLimit(noise);
     for (const std::vector<int>& run : runs)
     {
       this->MatchRun(run, limit);
     }
+    this->ScaleDeviations(std::max(LeastNoise, noise));
     return std::move(this->Matches);
   }
 
 private:
+  struct Fitted
+  {
+    double disparity, deviation;
+  };
+
   // The point nearest to all edge lines. The unknowns are the disparity and the token's shift across
   // the edge in the reference image.
   void Intersect(EdgeHypothesis& hypothesis) const
@@ -142,7 +150,8 @@ private:
 
   // The disparity of the k-th token of a run by a line through its neighbours: as many of them as are
   // needed for an error of a good third of a pixel of the longest baseline.
-  double FitDisparity(int k) const
+  // Its deviation is that where the edges are off by one pixel across.
+  Fitted FitDisparity(int k) const
   {
     constexpr int leastRadius = 2, greatestRadius = 12;
     const double enough = std::pow(this->Baseline / 0.35, 2);
@@ -174,7 +183,9 @@ private:
       }
     }
     const double determinant = w * wss - ws * ws;
-    return determinant > 0 ? (wd * wss - wsd * ws) / determinant : wd / w;
+    return determinant > 0
+      ? Fitted{ (wd * wss - wsd * ws) / determinant, std::sqrt(wss / determinant) }
+      : Fitted{ wd / w, std::sqrt(1 / w) };
   }
 
   // Computes the fitted disparities of a run and the residuals of its edges.
@@ -190,7 +201,7 @@ private:
     for (int k = 0; k < static_cast<int>(run.size()); ++k)
     {
       const EdgeHypothesis& hypothesis = this->Chosen[run[k]];
-      const double disparity = this->FitDisparity(k);
+      const auto [disparity, deviation] = this->FitDisparity(k);
       double residual = std::abs(hypothesis.disparity - disparity) / hypothesis.sigma;
       for (int j = hypothesis.begin; j < hypothesis.begin + hypothesis.count; ++j)
       {
@@ -198,15 +209,14 @@ private:
         residual = std::max(residual, std::abs(candidate.disparity - disparity) / candidate.sigma);
       }
       this->Matches[run[k]].disparity = disparity;
+      this->Matches[run[k]].deviation = deviation;
       this->Residual[run[k]] = residual;
     }
   }
 
-  // Several times the median residual of these images, but not more than the tolerance. With sharp
-  // images and exact cameras a wrong match is off by only a fraction of a pixel.
-  double ResidualLimit(const std::vector<std::vector<int>>& runs) const
+  // Of all images' edges, pixels.
+  double MedianResidual(const std::vector<std::vector<int>>& runs) const
   {
-    constexpr double factor = 5, least = 0.2; // pixels
     std::vector<double> residuals;
     for (const std::vector<int>& run : runs)
     {
@@ -215,11 +225,30 @@ private:
         residuals.push_back(this->Residual[i]);
       }
     }
-    if (residuals.empty())
+    return residuals.empty() ? 0 : Median(std::move(residuals));
+  }
+
+  // From deviations where edges are off by a pixel. What the neighbours of a token have in common, such as
+  // the way in which pixels sample an edge that follows their rows, is not averaged out by a line through them.
+  void ScaleDeviations(double noise)
+  {
+    constexpr double perToken = 2, common = 0.12;
+    for (std::size_t i = 0; i < this->Matches.size(); ++i)
     {
-      return least;
+      EdgeMatch& match = this->Matches[i];
+      if (match.images > 0)
+      {
+        match.deviation =
+          std::hypot(perToken * noise * match.deviation, common * this->Chosen[i].sigma);
+      }
     }
-    const double median = Median(std::move(residuals));
+  }
+
+  // Several times the median residual of these images, but not more than the tolerance. With sharp
+  // images and exact cameras a wrong match is off by only a fraction of a pixel.
+  double ResidualLimit(double median) const
+  {
+    constexpr double factor = 5, least = 0.2; // pixels
     return std::min(this->Options.tolerance, std::max(least, factor * median));
   }
 

@@ -34,6 +34,7 @@ void AddFeature(const EdgeToken& token, const EdgeMatch& match, EdgeView& view)
   view.imagePoints.push_back(match.imagePoint);
   view.colors.push_back({ token.color[2], token.color[1], token.color[0] });
   view.matchingCosts.push_back(match.cost);
+  view.deviations.push_back(match.deviation);
 }
 
 // Turns matches into features and runs into chains.
@@ -91,6 +92,7 @@ void AddPatches(const std::vector<PatchFeature>& patches, EdgeView& view)
     view.imagePoints.push_back(patch.imagePoint);
     view.colors.push_back(patch.color);
     view.matchingCosts.push_back(patch.cost);
+    view.deviations.push_back(patch.deviation);
     view.edgeDirections.push_back(Eigen::Vector3d::Zero());
     view.chainIds.push_back(-1);
   }

@@ -201,6 +201,26 @@ TEST(FitSurface, OutliersCountLittle)
   EXPECT_LT(RootMeanSquare(mesh.points), 0.003);
 }
 
+// Half of the features are biased by a deviation that they admit to.
+TEST(FitSurface, DeviationsWeighFeatures)
+{
+  const auto residual = [](double deviation)
+  {
+    ContourMesh mesh = BoxMesh();
+    std::vector<SeenFeature> features = FeaturesOnBox(0.001);
+    for (std::size_t i = 0; i < features.size(); ++i)
+    {
+      const bool isBiased = i / 6 % 2 == 1;
+      features[i].point *= isBiased ? 1.02 : 1;
+      features[i].deviation = isBiased ? deviation : 0.001;
+    }
+    FitSurface(mesh.points, mesh.triangles, features, {});
+    return RootMeanSquare(mesh.points);
+  };
+  EXPECT_GT(residual(0.001), 0.003);
+  EXPECT_LT(residual(0.005), 0.001);
+}
+
 TEST(FitSurface, WithoutFeaturesIsSmoothedInPlace)
 {
   ContourMesh mesh = BoxMesh();

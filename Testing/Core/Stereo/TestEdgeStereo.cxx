@@ -141,6 +141,29 @@ TEST(EdgeStereo, PatchesFollowTheEdges)
   }
 }
 
+// The deviations tell how large the errors are: two of three are smaller than one, 19 of 20 than two. Squares
+// without noise are easier than what the deviations were calibrated on, so that more may be.
+TEST(EdgeStereo, DeviationsBoundTheErrors)
+{
+  const SquaresScene scene;
+  const EdgeView view = scene.Find(true);
+  ASSERT_EQ(view.deviations.size(), view.points.size());
+  int within = 0, withinTwo = 0;
+  double typical = 0;
+  for (std::size_t i = 0; i < view.points.size(); ++i)
+  {
+    ASSERT_GT(view.deviations[i], 0);
+    const double error = std::abs(1 / view.camera.Depth(view.points[i]) - 1);
+    within += error <= view.deviations[i];
+    withinTwo += error <= 2 * view.deviations[i];
+    typical += 40 * view.deviations[i]; // pixels of one baseline
+  }
+  const double count = static_cast<double>(view.points.size());
+  EXPECT_GT(within, 0.65 * count);
+  EXPECT_GT(withinTwo, 0.9 * count);
+  EXPECT_LT(typical / count, 0.3) << "they say nothing";
+}
+
 TEST(EdgeStereo, PatchesHeedTheMask)
 {
   SquaresScene scene;

@@ -46,6 +46,12 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Disparity maps");
   command
+    .add_option("--feature-spacing", this->FeatureSpacing,
+      "Features that are closer in the image, at one depth, become one, pixels; 0 keeps all")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--tolerance", this->Tolerance,
       "Tolerance of the minimum disparity constraint, as a fraction of the depth")
     ->check(NonNegative())
@@ -105,6 +111,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   session.Run(support, "support");
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputConnection(support->GetOutputPort());
+  maps->SetFeatureSpacing(this->FeatureSpacing);
   maps->SetTolerance(this->Tolerance);
   maps->SetSupportingNeighbors(this->SupportingNeighbors);
   maps->SetSeeThroughViews(this->SeeThroughViews);

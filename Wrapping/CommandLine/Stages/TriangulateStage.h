@@ -4,6 +4,7 @@
 
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/FeatureSupport.h"
+#include "Disparity/FeatureThinning.h"
 #include "Disparity/LongTriangles.h"
 #include "Disparity/OutlierRejection.h"
 
@@ -32,6 +33,7 @@ public:
 private:
   double SupportRadius = FeatureSupportOptions().radius;
   int SupportNeighbors = FeatureSupportOptions().minimumNeighbors;
+  double FeatureSpacing = FeatureThinningOptions().spacing;
   double Tolerance = DelaunayDisparityOptions().tolerance;
   int SupportingNeighbors = OutlierRejectionOptions().neighbors;
   int SeeThroughViews = OutlierRejectionOptions().seeThroughViews;

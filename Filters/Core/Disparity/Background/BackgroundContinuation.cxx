@@ -393,6 +393,10 @@ DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const Canc
         map.points.push_back(map.camera.Unproject(pixel, 1 / wanted));
         map.imagePoints.push_back(pixel);
         map.sourceView.push_back(-1);
+        if (!map.deviations.empty())
+        {
+          map.deviations.push_back(0);
+        }
         disparity.push_back(wanted);
         behind.push_back(static_cast<int>(map.points.size()) - 1);
         corner = behind.back();

@@ -2,6 +2,7 @@
 #include "Mesh/Fit/FitSurface.h"
 
 #include "Common/Error.h"
+#include "Common/Median.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Mesh/Fit/TriangleGrid.h"
 #include "Mesh/Fit/Untangle.h"
@@ -24,6 +25,10 @@ using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
 // A feature looks at the surface no flatter than this cosine, as far as its deviation goes.
 constexpr double LeastCosine = 0.15;
+
+// What features say of their deviation is believed so far, in units of the typical one.
+constexpr double LeastDeviation = 0.2;
+constexpr double MostDeviation = 10;
 
 // Of the deviation of features in units of their median distance.
 constexpr double DeviationOfMedian = 1.5;
@@ -60,6 +65,7 @@ public:
     , Edges(triangles, points.size())
     , Original(points)
     , MedianEdge(this->FindMedianEdge())
+    , TypicalDeviation(this->FindTypicalDeviation())
   {
   }
 
@@ -68,6 +74,8 @@ public:
 
 private:
   double FindMedianEdge() const;
+  double FindTypicalDeviation() const;
+  double RelativeDeviation(const SeenFeature& feature) const;
   void FindContacts(const CancellationFlag& stop);
   double CommonDeviation() const;
   std::vector<VertexSystem::Basis> FindBases() const;
@@ -82,6 +90,7 @@ private:
   const MeshEdges Edges;
   const std::vector<Vector3d> Original;
   const double MedianEdge;
+  const double TypicalDeviation; // of the features, as a fraction of the depth; 0: none is known
   std::vector<Vector3d> Normals; // smoothed
   std::vector<double> Areas;
   std::vector<Contact> Contacts;
@@ -102,6 +111,27 @@ double SurfaceFitter::FindMedianEdge() const
   const auto middle = lengths.begin() + lengths.size() / 2;
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
+}
+
+double SurfaceFitter::FindTypicalDeviation() const
+{
+  std::vector<double> known;
+  for (const SeenFeature& feature : this->Features)
+  {
+    if (feature.deviation > 0)
+    {
+      known.push_back(feature.deviation);
+    }
+  }
+  return known.empty() ? 0 : Median(std::move(known));
+}
+
+// In units of the typical one, which a feature has about which nothing is known.
+double SurfaceFitter::RelativeDeviation(const SeenFeature& feature) const
+{
+  return feature.deviation > 0
+    ? std::clamp(feature.deviation / this->TypicalDeviation, LeastDeviation, MostDeviation)
+    : 1;
 }
 
 void SurfaceFitter::FindContacts(const CancellationFlag& stop)
@@ -126,7 +156,8 @@ void SurfaceFitter::FindContacts(const CancellationFlag& stop)
         const Vector3d& weights = contact.place.weights;
         contact.distance = normal.dot(feature.point - weights[0] * this->Points[a] -
           weights[1] * this->Points[b] - weights[2] * this->Points[c]);
-        contact.deviation = std::max(std::abs(normal.dot(feature.sight)), LeastCosine * depth);
+        contact.deviation = this->RelativeDeviation(feature) *
+          std::max(std::abs(normal.dot(feature.sight)), LeastCosine * depth);
       }
     });
   ThrowIfCancelled(stop);

@@ -36,6 +36,7 @@ struct SeenFeature
 {
   Eigen::Vector3d point;
   Eigen::Vector3d sight; ///< from the camera's centre to the point: its length is the distance
+  double deviation = 0;  ///< standard deviation of its depth, as a fraction of it; 0: not known
 };
 
 /// Moves the vertices of a surface to where the features say, as one, that it is. A disparity map

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Disparity/FeatureThinning.h"
+
+#include "Common/Error.h"
+#include "Common/Median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <unordered_map>
+
+namespace freespace
+{
+
+namespace
+{
+
+// Features of one cell and depth.
+struct Group
+{
+  double disparity = 0; // of the first
+  int next = -1;        // group of the same cell
+  int count = 0;
+  double weights = 0;
+  Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); // weighted sums
+  double sum = 0;
+
+  void Add(const Eigen::Vector2d& pixel, double ofFeature, double deviation)
+  {
+    const double weight = 1 / (deviation * deviation);
+    ++this->count;
+    this->weights += weight;
+    this->imagePoint += weight * pixel;
+    this->sum += weight * ofFeature;
+  }
+};
+
+class Thinner
+{
+public:
+  Thinner(const View& view, const FeatureThinningOptions& options)
+    : Given(view)
+    , Options(options)
+    , GroupOf(view.points.size(), -1)
+  {
+    std::vector<double> known;
+    std::copy_if(view.deviations.begin(), view.deviations.end(), std::back_inserter(known),
+      [](double deviation) { return deviation > 0; });
+    this->Typical = known.empty() ? 1 : Median(std::move(known));
+  }
+
+  View Thin()
+  {
+    for (std::size_t i = 0; i < this->Given.points.size(); ++i)
+    {
+      this->Add(i);
+    }
+    View thin;
+    thin.name = this->Given.name;
+    thin.imageFile = this->Given.imageFile;
+    thin.camera = this->Given.camera;
+    for (const Group& group : this->Groups)
+    {
+      const Eigen::Vector2d pixel = group.imagePoint / group.weights;
+      thin.imagePoints.push_back(pixel);
+      thin.points.push_back(thin.camera.Unproject(pixel, group.weights / group.sum));
+      if (!this->Given.deviations.empty())
+      {
+        // Neighbours share most of their errors: as good as one of them.
+        thin.deviations.push_back(std::sqrt(group.count / group.weights));
+      }
+    }
+    this->JoinEdges(thin);
+    return thin;
+  }
+
+private:
+  void Add(std::size_t feature)
+  {
+    const double disparity = 1 / this->Given.camera.Depth(this->Given.points[feature]);
+    const Eigen::Vector2d& pixel = this->Given.imagePoints[feature];
+    if (!(disparity > 0) || !std::isfinite(disparity) || !pixel.allFinite())
+    {
+      return;
+    }
+    const int group = this->FindGroup(pixel, disparity);
+    this->GroupOf[feature] = group;
+    const double known = this->Given.deviations.empty() ? 0 : this->Given.deviations[feature];
+    this->Groups[static_cast<std::size_t>(group)].Add(
+      pixel, disparity, known > 0 ? known : this->Typical);
+  }
+
+  // The group of a pixel and disparity, a new one where there is none.
+  int FindGroup(const Eigen::Vector2d& pixel, double disparity)
+  {
+    const Eigen::Vector2d cell = (pixel / this->Options.spacing).array().floor();
+    // One more than the camera's columns: features may lie a little outside.
+    const double columns = std::ceil(this->Given.camera.width / this->Options.spacing) + 1;
+    const auto known = this->FirstOfCell.emplace(cell.y() * columns + cell.x(), -1).first;
+    int* link = &known->second;
+    while (*link >= 0)
+    {
+      Group& group = this->Groups[static_cast<std::size_t>(*link)];
+      if (std::abs(group.disparity - disparity) <= this->Options.depthTolerance * group.disparity)
+      {
+        return *link;
+      }
+      link = &group.next;
+    }
+    *link = static_cast<int>(this->Groups.size());
+    const int added = *link; // the link may move with the groups
+    this->Groups.emplace_back().disparity = disparity;
+    return added;
+  }
+
+  void JoinEdges(View& thin) const
+  {
+    for (const auto& [a, b] : this->Given.edges)
+    {
+      const int first = this->GroupOf[static_cast<std::size_t>(a)];
+      const int second = this->GroupOf[static_cast<std::size_t>(b)];
+      if (first >= 0 && second >= 0 && first != second)
+      {
+        thin.edges.push_back({ std::min(first, second), std::max(first, second) });
+      }
+    }
+    std::sort(thin.edges.begin(), thin.edges.end());
+    thin.edges.erase(std::unique(thin.edges.begin(), thin.edges.end()), thin.edges.end());
+  }
+
+  const View& Given;
+  const FeatureThinningOptions& Options;
+  double Typical = 1;       // deviation, of features about which nothing is known
+  std::vector<int> GroupOf; // per feature
+  std::vector<Group> Groups;
+  std::unordered_map<double, int> FirstOfCell; // by the cell's number
+};
+
+}
+
+void FeatureThinningOptions::Check() const
+{
+  if (!(this->spacing >= 0) || !std::isfinite(this->spacing))
+  {
+    throw Error("The spacing of thinned features must not be negative.");
+  }
+  if (!(this->depthTolerance > 0) || !std::isfinite(this->depthTolerance))
+  {
+    throw Error("The depth tolerance of thinned features must be positive.");
+  }
+}
+
+View ThinFeatures(const View& view, const FeatureThinningOptions& options)
+{
+  options.Check();
+  return options.spacing > 0 ? Thinner(view, options).Thin() : view;
+}
+
+}
