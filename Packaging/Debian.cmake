@@ -53,7 +53,7 @@ endif()
 freespace_package(runtime ${freespace_libraries} libs "surfaces from photographs - libraries"
   "This package contains the libraries." "")
 string(CONCAT needed "${same_version}, libvtk9-dev, libeigen3-dev, libcgal-dev, libopencv-dev, "
-  "libopencv-contrib-dev, libceres-dev, libnanoflann-dev, nlohmann-json3-dev, libjpeg-dev")
+  "libopencv-contrib-dev, libceres-dev, libnanoflann-dev, nlohmann-json3-dev, libjpeg-dev, libexpat1-dev")
 freespace_package(development libfreespace-dev libdevel "surfaces from photographs - development files"
   "This package contains the headers and what CMake's find_package needs." "${needed}")
 set(needed "${same_version}, python3-vtk9, python3-numpy")

@@ -8,7 +8,7 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
-#include "SparseModelBlocks.h"
+#include "Blocks/SparseModelBlocks.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>

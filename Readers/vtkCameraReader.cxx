@@ -5,7 +5,6 @@
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
 #include "Scene/Scene.h"
-#include "SparseModel/ReadSparseModel.h"
 
 #include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
@@ -18,15 +17,6 @@ vtkStandardNewMacro(vtkCameraReader);
 
 namespace
 {
-
-std::vector<freespace::CalibratedImage> ReadImages(const std::string& fileName)
-{
-  if (std::filesystem::is_directory(fileName) || freespace::IsSparseModel(fileName))
-  {
-    return freespace::CalibratedImages(freespace::ReadSparseModel(fileName));
-  }
-  return freespace::ReadSceneImages(freespace::ReadScene(fileName));
-}
 
 std::string WithoutEnding(const std::string& image)
 {
@@ -48,7 +38,7 @@ int vtkCameraReader::RequestData(
   try
   {
     unsigned int index = 0;
-    for (const freespace::CalibratedImage& image : ReadImages(this->FileName))
+    for (const freespace::CalibratedImage& image : freespace::ReadCameras(this->FileName))
     {
       freespace::View view;
       view.name = view.imageFile = image.file;

@@ -7,8 +7,8 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
-#include "SparseModel/ReadSparseModel.h"
-#include "SparseModelBlocks.h"
+#include "ModelFiles/ReadSparseModel.h"
+#include "Blocks/SparseModelBlocks.h"
 
 #include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
@@ -41,6 +41,12 @@ int vtkSparseModelReader::RequestData(
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     options.Check();
     freespace::SparseModel model = freespace::ReadSparseModel(this->FileName);
+    if (model.points.empty() && this->MinimumFeatures > 0)
+    {
+      throw freespace::Error("The camera model " + this->FileName +
+        " has no points to be features: make a scene of it, whose features come from its "
+        "photographs (freespace clusters MODEL --images IMAGES -o scene.json).");
+    }
     progress(0.5);
     if (this->CheckImages)
     {

@@ -5,7 +5,10 @@
  *
  * A structure-from-motion model knows cameras and points, and which image sees which point. Each
  * image with its points is a view for this method, without a photograph. Reads COLMAP's models (a
- * folder; binary files are preferred to text), Bundler's bundle.out and VisualSFM's .nvm files.
+ * folder; binary files are preferred to text), Bundler's bundle.out, VisualSFM's .nvm, OpenMVG's
+ * sfm_data.json and AliceVision's .sfm. Files that have cameras only give no features: nerfstudio's
+ * and instant-ngp's transforms.json, Metashape's XML and Middlebury's _par.txt; vtkCameraReader and
+ * vtkEdgeStereoReader read these, too.
  *
  * A point is a feature of the images that see it when its track is long enough, its rays meet at
  * a sufficient angle and its reprojection error is small. A point that is not in front of an

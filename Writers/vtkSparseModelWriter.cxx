@@ -5,7 +5,7 @@
 #include "Data/ViewInput.h"
 #include "RunWriter.h"
 #include "SparseModel/ColmapModel.h"
-#include "SparseModelBlocks.h"
+#include "Blocks/SparseModelBlocks.h"
 
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>

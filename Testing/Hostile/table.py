@@ -152,6 +152,8 @@ def model(**changes):
 MODELS = {
     'no cameras': model(cameras=None), 'no images': model(images=None), 'no points': model(points3D=None),
     'empty cameras': model(cameras=''), 'a word for a number': model(cameras='1 PINHOLE 640 480 f 500 320 240\n'),
+    'a panorama': model(cameras='1 EQUIRECTANGULAR 640 480\n'),
+    'a fisheye with too few parameters': model(cameras='1 OPENCV_FISHEYE 640 480 500 500 320 240 0 0 0\n'),
     'an unknown lens': model(cameras='1 EGG 640 480 500\n'), 'too few parameters': model(cameras='1 PINHOLE 640 480 500\n'),
     'a camera of no size': model(cameras='1 PINHOLE 0 480 500 500 320 240\n'),
     'a focal length of nan': model(cameras='1 PINHOLE 640 480 nan 500 320 240\n'),
@@ -169,8 +171,69 @@ for name, files in MODELS.items():
     row(f'reconstruct with {name}', files, ['reconstruct', 'bad', '-o', 'out.ply'], 'bad')
 for name, content in {'empty.nvm': '', 'noise.nvm': b'\x93\x00\xff' * 50, 'cut.nvm': 'NVM_V3\n\n5\n', 'empty.out': '',
                       'noise.out': b'\x93\x00\xff' * 50, 'many.out': '# Bundle file v0.3\n2000000000 2000000000\n',
-                      'many.nvm': 'NVM_V3\n\n2000000000\n'}.items():
+                      'many.nvm': 'NVM_V3\n\n2000000000\n', 'fixed.nvm': 'NVM_V3 FixedK 1 2\n',
+                      'many.bundle.out': '1 1\n1 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n1 2 3\n0 0 0\n2000000000\n'}.items():
     row(f'sparse {name}', {name: content}, ['sparse', name, '-o', 'out.vtm'], name)
+
+# Models of other programs.
+
+SFM = ('{"version": ["1", "2", "6"], "views": [{"viewId": "1", "poseId": "1", "intrinsicId": "1", "path": "/a.jpg"}], '
+       '"intrinsics": [{"intrinsicId": "1", "width": "9", "height": "9", "type": "KIND", "focalLength": "1", '
+       '"principalPoint": ["0", "0"], "distortionParams": ["0", "0", "0"]}], "poses": [{"poseId": "1", "pose": '
+       '{"transform": {"rotation": ["1", "0", "0", "0", "1", "0", "0", "0", "1"], "center": ["0", "0", "0"]}}}]}')
+FRAME = ('{"w": 9, "h": 9, "fl_x": 9, "frames": [{"file_path": "a.png", "transform_matrix": '
+         '[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]}')
+XML = ('<document><chunk><sensors><sensor id="0" type="KIND"><resolution width="9" height="9"/><calibration><f>9</f>'
+       '</calibration></sensor></sensors><cameras><camera sensor_id="0" label="a"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 '
+       '0 1</transform></camera></cameras></chunk></document>')
+FOREIGN = {
+    'empty.sfm': '', 'noise.sfm': b'\x93\x00\xff' * 100, 'deep.sfm': '[' * 300000, 'none.sfm': '{}',
+    'panorama.sfm': SFM.replace('KIND', 'equirectangular'), 'egg.sfm': SFM.replace('KIND', 'egg'),
+    'word.sfm': SFM.replace('KIND', 'radial3').replace('"focalLength": "1"', '"focalLength": "x"'),
+    'nan.sfm': SFM.replace('KIND', 'radial3').replace('"focalLength": "1"', '"focalLength": "nan"'),
+    'large.sfm': SFM.replace('KIND', 'radial3').replace('"width": "9"', '"width": "99999999999999"'),
+    'transforms.json': FRAME.replace('"fl_x"', '"f"'), 'matrix.json': FRAME.replace('[0,0,1,0]', '[0,0,1]'),
+    'rotation.json': FRAME.replace('[0,0,1,0]', '[0,0,9,0]'), 'size.json': FRAME.replace('"w": 9', '"w": 1e30'),
+    'word.json': FRAME.replace('"fl_x": 9', '"fl_x": "x"'), 'cut.json': FRAME[:-9], 'frames.json': '{"frames": 3}',
+    'panorama.json': FRAME.replace('{"w"', '{"camera_model": "EQUIRECTANGULAR", "w"'), 'points.json': FRAME,
+    'sfm_data.json': '{"sfm_data_version": "0.3"}', 'list.json': '{"sfm_data_version": "0.3", "intrinsics": [3]}',
+    'empty_par.txt': '', 'many_par.txt': '2000000000\n', 'word_par.txt': '1\na.png x\n',
+    'rotation_par.txt': '1\na.png 9 0 4 0 9 4 0 0 1 2 0 0 0 1 0 0 0 1 0 0 0\n',
+    'panorama.xml': XML.replace('KIND', 'spherical'), 'cut.xml': XML.replace('KIND', 'frame')[:200],
+    'deep.xml': '<document>' + '<a>' * 300000, 'none.xml': '<document/>', 'points.xml': XML.replace('KIND', 'frame'),
+    'laughs.xml': '<!DOCTYPE a [<!ENTITY b "' + 'c' * 9999 + '">]><document>' + '&b;' * 9999 + '</document>',
+    'word.xml': XML.replace('KIND', 'frame').replace('1 0 0 0 0', '1 0 x 0 0'),
+}
+for name, content in FOREIGN.items():
+    row(f'sparse {name}', {name: content}, ['sparse', name, '-o', 'out.vtm'], name)
+    if 'points' not in name:
+        row(f'reconstruct {name}', {name: content}, ['reconstruct', name, '-o', 'out.ply'], name)
+        row(f'texture by {name}', {name: content}, ['texture', 'mesh.ply', '--scene', name, '-o', 'out.glb'], name)
+for name, sentence in {'a.psx': 'Metashape', 'a.rcproj': 'RealityCapture', 'a.abc': 'Alembic', 'a.mvs': 'OpenMVS',
+                       'poses_bounds.npy': 'LLFF', 'database.db': 'database', 'a.mg': 'Meshroom'}.items():
+    row(f'sparse {name}', {name: 'x'}, ['sparse', name, '-o', 'out.vtm'], sentence)
+    row(f'view {name}', {name: 'x'}, ['view', name, '--mesh', 'mesh.ply', '-o', 'out.png'], sentence)
+row('sparse of OpenSfM', {'reconstruction.json': '[{"cameras": {}, "shots": {}}]'},
+    ['sparse', 'reconstruction.json', '-o', 'out.vtm'], 'export_colmap')
+
+# Depth maps, of the only image of a model.
+
+DEPTHS = {'empty.bin': b'', 'noise.bin': b'\x93\x00\xff' * 100, 'cut.bin': b'640&480&1&' + bytes(99),
+          'three.bin': b'1&1&3&' + bytes(12), 'many.bin': b'65536&65536&1&', 'negative.bin': b'-1&480&1&',
+          'none.bin': b'4&3&1&' + bytes(48), 'shape.bin': b'3&4&1&' + bytes(48), 'empty.pfm': b'',
+          'noise.pfm': b'\x93\x00\xff' * 100, 'cut.pfm': b'Pf\n4 3\n-1\n' + bytes(47),
+          'colour.pfm': b'PF\n1 1\n-1\n' + bytes(12), 'scale.pfm': b'Pf\n1 1\n0\n' + bytes(4),
+          'empty.png': b'', 'noise.png': b'\x93\x00\xff' * 100, 'head.png': b'\x89PNG\r\n\x1a\n' + bytes(40),
+          'a.exr': b'x'}
+for name, content in DEPTHS.items():
+    file = 'a.jpg' + name[name.index('.'):]
+    row(f'depth {name}', {file: content, **model()}, ['depth', file, '--scene', 'bad', '-o', 'out.vtm'], r'a\.jpg')
+row('depth of an unknown image', {'x.pfm': b'Pf\n4 3\n-1\n' + bytes(48), **model()},
+    ['depth', 'x.pfm', '--scene', 'bad', '-o', 'out.vtm'], r'x\.pfm')
+row('depth twice', {'a.pfm': b'Pf\n4 3\n-1\n' + bytes(48), 'a.jpg.pfm': b'', **model()},
+    ['depth', 'a.pfm', 'a.jpg.pfm', '--scene', 'bad', '-o', 'out.vtm'], 'two depth maps')
+row('depth without a map', model(), ['depth', 'absent.pfm', '--scene', 'bad', '-o', 'out.vtm'], r'absent\.pfm')
+row('depth without cameras', {'a.pfm': ''}, ['depth', 'a.pfm', '--scene', 'absent', '-o', 'out.vtm'], 'absent')
 
 # Points and segments.
 

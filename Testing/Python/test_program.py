@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
 COMMANDS = ('reconstruct', 'sparse', 'calibrate', 'clusters', 'stereo', 'triangulate', 'contour', 'query', 'render',
-            'texture', 'occupancy', 'view', 'report', 'refine')
+            'texture', 'occupancy', 'view', 'report', 'refine', 'depth')
 
 
 def run(*arguments, cwd=None):

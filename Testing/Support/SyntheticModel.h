@@ -3,22 +3,22 @@
 #define freespace_SyntheticModel_h
 
 #include "SparseModel/SparseModel.h"
+#include "Support/LensFormulas.h"
 
-#include <cmath>
+#include <algorithm>
 #include <random>
 
 namespace freespace
 {
 
-/// Where a lens with radial distortion k1, k2 shows a point, from the definition.
-inline Eigen::Vector2d ShowPoint(const CalibratedImage& image, const Eigen::Vector3d& point)
+/// Where the image shows a point, by the formula of its lens.
+inline Eigen::Vector2d ShowPoint(
+  const SparseModel& model, std::size_t image, const Eigen::Vector3d& point)
 {
-  const Eigen::Vector2d normalized = image.camera.FromWorld(point).hnormalized();
-  const double r2 = normalized.squaredNorm();
-  const double k1 = image.distortion.empty() ? 0 : image.distortion[0];
-  const double k2 = image.distortion.empty() ? 0 : image.distortion[1];
-  const Eigen::Vector2d distorted = normalized * (1 + k1 * r2 + k2 * r2 * r2);
-  return (image.camera.K * distorted.homogeneous()).hnormalized();
+  const SparseImage& seeing = model.images[image];
+  const auto camera = std::find_if(model.cameras.begin(), model.cameras.end(),
+    [&](const SparseCamera& other) { return other.id == seeing.camera; });
+  return ShowByFormula(*camera, CalibratedImageOf(seeing, *camera).camera.FromWorld(point));
 }
 
 /// Cameras on an arc of 60 degrees about points in a cube of side 1, each of which is seen by the
@@ -34,11 +34,17 @@ inline SparseModel MakeSyntheticModel(int images, int points, LensModel lens = L
     case LensModel::SimplePinhole:
       model.cameras.push_back({ 3, lens, 800, 600, { 700, 400, 300 } });
       break;
+    case LensModel::SimpleRadial:
+      model.cameras.push_back({ 3, lens, 800, 600, { 700, 400, 300, -0.1 } });
+      break;
     case LensModel::Radial:
       model.cameras.push_back({ 3, lens, 800, 600, { 700, 400, 300, -0.1, 0.02 } });
       break;
+    case LensModel::Pinhole:
+      model.cameras.push_back({ 3, lens, 800, 600, { 700, 710, 405.5, 290.25 } });
+      break;
     default:
-      model.cameras.push_back({ 3, LensModel::Pinhole, 800, 600, { 700, 710, 405.5, 290.25 } });
+      model.cameras.push_back(CameraWithLens(lens));
   }
   for (int i = 0; i < points; ++i)
   {
@@ -59,7 +65,6 @@ inline SparseModel MakeSyntheticModel(int images, int points, LensModel lens = L
     image.rotation = { q.w(), q.x(), q.y(), q.z() };
     image.translation = { 0.01 * i, 0, 2 };
   }
-  const std::vector<CalibratedImage> calibrated = CalibratedImages(model);
   for (int i = 0; i < images; ++i)
   {
     SparseImage& image = model.images[i];
@@ -73,7 +78,8 @@ inline SparseModel MakeSyntheticModel(int images, int points, LensModel lens = L
       if (luck < 0.8 || i == 0)
       {
         point.track.push_back({ image.id, static_cast<std::uint32_t>(image.observations.size()) });
-        image.observations.push_back({ ShowPoint(calibrated[i], point.position), point.id });
+        image.observations.push_back(
+          { ShowPoint(model, static_cast<std::size_t>(i), point.position), point.id });
       }
     }
   }

@@ -96,6 +96,7 @@ void AddCommands(CLI::App& program, freespace::Session& session)
 {
   freespace::AddReconstructCommand(program, session);
   freespace::AddSparseCommand(program, session);
+  freespace::AddDepthCommand(program, session);
   freespace::AddCalibrateCommand(program, session);
   freespace::AddClustersCommand(program, session);
   freespace::AddRefineCommand(program, session);

@@ -2,7 +2,7 @@
 #include "Agreement/ProjectionErrors.h"
 
 #include "Common/Median.h"
-#include "SparseModel/SparseViews.h"
+#include "Images/LensDistortion.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -39,11 +39,14 @@ double MedianError(const CalibratedImage& image, const SparseImage& source,
   std::vector<double> errors;
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
-    errors.push_back(image.camera.Depth(positions[i]) > 0
-        ? (image.camera.Project(positions[i]) - pixels[i]).norm()
-        : std::numeric_limits<double>::infinity());
+    if (pixels[i].allFinite()) // a fisheye lens sees more than a pinhole camera
+    {
+      errors.push_back(image.camera.Depth(positions[i]) > 0
+          ? (image.camera.Project(positions[i]) - pixels[i]).norm()
+          : std::numeric_limits<double>::infinity());
+    }
   }
-  return Median(std::move(errors));
+  return errors.size() < Few ? -1 : Median(std::move(errors));
 }
 
 }

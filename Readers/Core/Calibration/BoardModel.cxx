@@ -2,6 +2,7 @@
 #include "Calibration/BoardCalibration.h"
 
 #include "Calibration/CameraCalibration.h"
+#include "SparseModel/ModelBuilder.h"
 
 #include <filesystem>
 #include <map>
@@ -14,34 +15,13 @@ namespace fs = std::filesystem;
 namespace
 {
 
-// The simplest lens model that has these coefficients.
 SparseCamera LensOf(const CalibratedImage& image, std::uint32_t id)
 {
   const Eigen::Matrix3d& K = image.camera.K;
-  std::vector<double> d = image.distortion;
-  const std::size_t coefficients = CountCoefficients(d);
-  d.resize(8, 0.0);
-  SparseCamera camera;
+  SparseCamera camera = PerspectiveCamera(K(0, 0), K(1, 1), K(0, 2), K(1, 2), image.distortion);
   camera.id = id;
   camera.width = static_cast<std::uint64_t>(image.camera.width);
   camera.height = static_cast<std::uint64_t>(image.camera.height);
-  const bool square = K(0, 0) == K(1, 1);
-  if (square && coefficients <= 2)
-  {
-    constexpr LensModel models[] = { LensModel::SimplePinhole, LensModel::SimpleRadial,
-      LensModel::Radial };
-    camera.model = models[coefficients];
-    camera.parameters = { K(0, 0), K(0, 2), K(1, 2), d[0], d[1] };
-  }
-  else
-  {
-    camera.model = coefficients == 0 ? LensModel::Pinhole
-      : coefficients <= 4            ? LensModel::OpenCV
-                                     : LensModel::FullOpenCV;
-    camera.parameters = { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
-    camera.parameters.insert(camera.parameters.end(), d.begin(), d.end());
-  }
-  camera.parameters.resize(LensModelParameters(camera.model));
   return camera;
 }
 

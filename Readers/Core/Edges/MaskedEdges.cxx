@@ -19,32 +19,44 @@ bool IsIgnored(const Eigen::Vector2d& position, const cv::Mat& mask)
 
 }
 
+EdgeChains EdgesWithout(
+  const EdgeChains& edges, const std::vector<char>& dropped, int minimumLength)
+{
+  EdgeChains kept;
+  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  {
+    int first = edges.begin[chain];
+    for (int i = first; i <= edges.begin[chain + 1]; ++i)
+    {
+      if (i < edges.begin[chain + 1] && !dropped[static_cast<std::size_t>(i)])
+      {
+        continue;
+      }
+      if (i - first >= minimumLength)
+      {
+        kept.tokens.insert(
+          kept.tokens.end(), edges.tokens.begin() + first, edges.tokens.begin() + i);
+        kept.begin.push_back(static_cast<int>(kept.tokens.size()));
+      }
+      first = i + 1;
+    }
+  }
+  return kept;
+}
+
 EdgeChains EdgesOutside(const EdgeChains& edges, const cv::Mat& mask, int minimumLength)
 {
   if (mask.empty())
   {
     return edges;
   }
-  EdgeChains outside;
-  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  std::vector<char> ignored;
+  ignored.reserve(edges.tokens.size());
+  for (const EdgeToken& token : edges.tokens)
   {
-    int first = edges.begin[chain];
-    for (int i = first; i <= edges.begin[chain + 1]; ++i)
-    {
-      if (i < edges.begin[chain + 1] && !IsIgnored(edges.tokens[i].position, mask))
-      {
-        continue;
-      }
-      if (i - first >= minimumLength)
-      {
-        outside.tokens.insert(
-          outside.tokens.end(), edges.tokens.begin() + first, edges.tokens.begin() + i);
-        outside.begin.push_back(static_cast<int>(outside.tokens.size()));
-      }
-      first = i + 1;
-    }
+    ignored.push_back(IsIgnored(token.position, mask));
   }
-  return outside;
+  return EdgesWithout(edges, ignored, minimumLength);
 }
 
 }

@@ -9,6 +9,11 @@
 namespace freespace
 {
 
+/// The edges without the tokens for which `dropped` is not zero: chains are cut there, and what is left of
+/// fewer tokens than the least length goes, too.
+EdgeChains EdgesWithout(
+  const EdgeChains& edges, const std::vector<char>& dropped, int minimumLength);
+
 /// The edges outside of the black parts of a mask. Chains end where these begin; what is left of a chain
 /// counts when it has as many tokens as a chain must have. The edges were found in the whole image: the
 /// boundary of a mask makes none. A token on the boundary keeps the colours of both sides, so that a

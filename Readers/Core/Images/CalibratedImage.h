@@ -10,15 +10,28 @@
 namespace freespace
 {
 
+/// How the lens shows a point at (x / z, y / z), r from the optical axis.
+enum class LensKind
+{
+  Perspective,      ///< OpenCV's distortion: k1 k2 p1 p2 [k3 [k4 k5 k6]]
+  Fisheye,          ///< OpenCV's fisheye, of the angle atan(r): k1 k2 k3 k4
+  ThinPrismFisheye, ///< COLMAP's, of the angle: k1 k2 p1 p2 k3 k4 sx1 sy1
+  FieldOfView       ///< atan(2 r tan(w / 2)) / w: w
+};
+
 /// A photograph with the camera that took it. The lens's distortion stands beside the pinhole
 /// camera: the stages after the undistortion know the pinhole only.
 struct CalibratedImage
 {
   std::string file; ///< relative to the scene's `images`
   Camera camera;
-  /// In OpenCV's order: k1 k2 p1 p2 [k3 [k4 k5 k6]]; empty without distortion. The normalized
+  LensKind lens = LensKind::Perspective;
+  /// As listed at LensKind; empty for a perspective lens without distortion. The normalized
   /// coordinates (x / z, y / z) are distorted, so that the pixel convention of K does not matter.
   std::vector<double> distortion;
+
+  /// Whether the image is what the pinhole camera sees.
+  bool IsPinhole() const { return this->lens == LensKind::Perspective && this->distortion.empty(); }
 };
 
 }

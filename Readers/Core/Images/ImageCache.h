@@ -61,7 +61,7 @@ private:
 
   static bool HaveSameLens(const CalibratedImage& a, const CalibratedImage& b)
   {
-    return a.camera.K == b.camera.K && a.distortion == b.distortion;
+    return a.camera.K == b.camera.K && a.lens == b.lens && a.distortion == b.distortion;
   }
 
   std::shared_ptr<Entry> EntryOf(const std::string& file)

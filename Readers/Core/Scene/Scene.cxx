@@ -4,10 +4,10 @@
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Files/NameEncoding.h"
-#include "Text/TextSource.h"
+#include "ModelFiles/ForeignModel.h"
+#include "ModelFiles/ReadSparseModel.h"
 #include "Scene/ScaledImages.h"
-#include "SparseModel/FindSparseModel.h"
-#include "SparseModel/ReadSparseModel.h"
+#include "Text/JsonNode.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,108 +15,17 @@
 #include <fstream>
 #include <unordered_set>
 
-#include <nlohmann/json.hpp>
-
 namespace freespace
 {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace
 {
 
-// A value of the file with the place where it stands, for the error messages.
-class Node
+std::array<std::string, 3> ReadTriplet(const JsonNode& node, const std::string& reference)
 {
-public:
-  Node(const Json& value, std::string place)
-    : Value(value)
-    , Place(std::move(place))
-  {
-  }
-
-  [[noreturn]] void Fail(const std::string& fault) const
-  {
-    throw Error("Cannot read " + this->Place + ": " + fault + (fault.back() == '.' ? "" : "."));
-  }
-
-  void ExpectObject(const std::vector<std::string>& known) const
-  {
-    if (!this->Value.is_object())
-    {
-      this->Fail("here should stand an object in braces");
-    }
-    for (const auto& item : this->Value.items())
-    {
-      if (std::find(known.begin(), known.end(), item.key()) == known.end())
-      {
-        this->Fail("the key '" + item.key() + "' is unknown");
-      }
-    }
-  }
-
-  bool Has(const std::string& key) const { return this->Value.contains(key); }
-
-  Node At(const std::string& key) const
-  {
-    if (!this->Has(key))
-    {
-      this->Fail("the key '" + key + "' is missing");
-    }
-    return { this->Value[key], this->Place + ", '" + key + "'" };
-  }
-
-  std::vector<Node> Elements() const
-  {
-    if (!this->Value.is_array())
-    {
-      this->Fail("here should stand a list in brackets");
-    }
-    std::vector<Node> elements;
-    for (std::size_t i = 0; i < this->Value.size(); ++i)
-    {
-      elements.emplace_back(this->Value[i], this->Place + "[" + std::to_string(i) + "]");
-    }
-    return elements;
-  }
-
-  std::string Text() const
-  {
-    if (!this->Value.is_string() || this->Value.get<std::string>().empty())
-    {
-      this->Fail("here should stand a text in quotes that is not empty");
-    }
-    return NameFromUtf8(this->Value.get<std::string>());
-  }
-
-  double Number() const
-  {
-    if (!this->Value.is_number())
-    {
-      this->Fail("here should stand a number");
-    }
-    return this->Value.get<double>();
-  }
-
-  int Integer() const
-  {
-    const double number = this->Number();
-    if (number != std::floor(number) || std::abs(number) > 1e9)
-    {
-      this->Fail("here should stand a whole number");
-    }
-    return static_cast<int>(number);
-  }
-
-private:
-  const Json& Value;
-  std::string Place;
-};
-
-std::array<std::string, 3> ReadTriplet(const Node& node, const std::string& reference)
-{
-  const std::vector<Node> elements = node.Elements();
+  const std::vector<JsonNode> elements = node.Elements();
   if (elements.size() != 3)
   {
     node.Fail("a triplet has three images");
@@ -134,7 +43,7 @@ std::array<std::string, 3> ReadTriplet(const Node& node, const std::string& refe
   return triplet;
 }
 
-Cluster ReadCluster(const Node& node)
+Cluster ReadCluster(const JsonNode& node)
 {
   node.ExpectObject({ "name", "reference", "triplets" });
   Cluster cluster;
@@ -145,7 +54,7 @@ Cluster ReadCluster(const Node& node)
     node.Fail("the name of a cluster, " + cluster.name + ", is a path that leaves its folder");
   }
   cluster.reference = node.At("reference").Text();
-  for (const Node& triplet : node.At("triplets").Elements())
+  for (const JsonNode& triplet : node.At("triplets").Elements())
   {
     cluster.triplets.push_back(ReadTriplet(triplet, cluster.reference));
   }
@@ -156,11 +65,11 @@ Cluster ReadCluster(const Node& node)
   return cluster;
 }
 
-std::vector<Cluster> ReadClusters(const Node& node)
+std::vector<Cluster> ReadClusters(const JsonNode& node)
 {
   std::vector<Cluster> clusters;
   std::unordered_set<std::string> names;
-  for (const Node& element : node.Elements())
+  for (const JsonNode& element : node.Elements())
   {
     clusters.push_back(ReadCluster(element));
     if (!names.insert(clusters.back().name).second)
@@ -175,9 +84,9 @@ std::vector<Cluster> ReadClusters(const Node& node)
   return clusters;
 }
 
-void ReadBoardSize(const Node& node, Board& board)
+void ReadBoardSize(const JsonNode& node, Board& board)
 {
-  const std::vector<Node> size = node.Elements();
+  const std::vector<JsonNode> size = node.Elements();
   if (size.size() != 2)
   {
     node.Fail("here should stand two numbers, of columns and of rows");
@@ -186,7 +95,7 @@ void ReadBoardSize(const Node& node, Board& board)
   board.rows = size[1].Integer();
 }
 
-Board ReadBoard(const Node& node)
+Board ReadBoard(const JsonNode& node)
 {
   node.ExpectObject({ "type", "squares", "corners", "square_m", "marker_m", "dictionary" });
   Board board;
@@ -219,40 +128,6 @@ Board ReadBoard(const Node& node)
     node.Fail(error.what());
   }
   return board;
-}
-
-// Where a byte (counted from one) of a text is, for people.
-std::string PlaceOf(const std::string& text, std::size_t byte)
-{
-  const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
-  const std::size_t lastBreak = before.rfind('\n');
-  const std::size_t column = before.size() - (lastBreak == std::string::npos ? 0 : lastBreak + 1);
-  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
-    ", column " + std::to_string(column + 1);
-}
-
-Json ParseFile(const std::string& file)
-{
-  if (fs::is_directory(file))
-  {
-    throw Error("Cannot read " + file +
-      ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "
-      ".txt).");
-  }
-  const std::string text = ReadWholeFile(file);
-  try
-  {
-    return Json::parse(text);
-  }
-  catch (const Json::parse_error& error)
-  {
-    throw Error("Cannot read " + file + ": it is not valid JSON, the fault is in " +
-      PlaceOf(text, error.byte) + ".");
-  }
-  catch (const Json::exception&)
-  {
-    throw Error("Cannot read " + file + ": one of its numbers is too large.");
-  }
 }
 
 std::string Resolve(const std::string& sceneFile, const std::string& folder)
@@ -303,24 +178,38 @@ OrderedJson JsonFromBoard(const Board& board)
   return json;
 }
 
-// A scene of a model's folder: the photographs are in an `images` beside it or above.
-Scene SceneOfModel(const std::string& path)
+// The folder `images` beside a model or above it, or else the folder of the model.
+std::string ImagesBeside(const fs::path& model)
 {
-  const fs::path model = fs::absolute(FindSparseModel(path)).lexically_normal();
-  Scene scene;
-  scene.file = path;
-  scene.model = model.string();
-  scene.images = model.string();
   fs::path above = model / "";
   for (int level = 0; level < 4 && above.has_parent_path(); ++level)
   {
     above = above.parent_path();
     if (fs::is_directory(above / "images"))
     {
-      scene.images = (above / "images").string();
-      break;
+      return (above / "images").string();
     }
   }
+  return model.string();
+}
+
+// A scene of a model. Files of other programs tell where their images are; they may have moved.
+Scene SceneOfModel(const std::string& path, const ModelSource& source)
+{
+  const fs::path model = fs::absolute(source.path).lexically_normal();
+  Scene scene;
+  scene.file = path;
+  scene.model = model.string();
+  if (source.kind == ModelKind::Colmap)
+  {
+    scene.images = ImagesBeside(model);
+    return scene;
+  }
+  const SparseModel read = ReadSparseModel(source.path);
+  const fs::path told = fs::absolute(read.folder.empty() ? "." : read.folder).lexically_normal();
+  const bool areThere = std::any_of(read.images.begin(), read.images.end(),
+    [&](const SparseImage& image) { return fs::exists(told / image.name); });
+  scene.images = areThere ? told.string() : ImagesBeside(model.parent_path());
   return scene;
 }
 
@@ -387,14 +276,24 @@ Scene ReadScene(const std::string& path)
   if (fs::is_directory(path))
   {
     file = (fs::path(path) / "scene.json").string();
-    if (!fs::exists(file) && HasColmapModel(FindSparseModel(path)))
-    {
-      return SceneOfModel(path);
-    }
     file = fs::exists(file) ? file : path;
   }
-  const Json json = ParseFile(file);
-  const Node root(json, file);
+  if (const ModelSource source = FindModel(file); source.kind != ModelKind::None)
+  {
+    return SceneOfModel(path, source);
+  }
+  if (const std::string foreign = DescribeForeignModel(file); !foreign.empty())
+  {
+    throw Error("Cannot read " + file + ": " + foreign + ".");
+  }
+  if (fs::is_directory(file))
+  {
+    throw Error("Cannot read " + file +
+      ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "
+      ".txt).");
+  }
+  const JsonDocument document(file);
+  const JsonNode root = document.Root();
   root.ExpectObject({ "images", "model", "masks", "clusters", "board" });
   Scene scene;
   scene.file = file;
@@ -468,6 +367,12 @@ SparseModel ReadSceneModel(const Scene& scene, std::string* scaled)
     }
   }
   return model;
+}
+
+std::vector<CalibratedImage> ReadCameras(const std::string& path)
+{
+  return IsSparseModel(path) ? CalibratedImages(ReadSparseModel(path))
+                             : ReadSceneImages(ReadScene(path));
 }
 
 std::vector<CalibratedImage> ReadSceneImages(const Scene& scene)

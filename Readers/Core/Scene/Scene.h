@@ -54,7 +54,7 @@ struct Board
 ///       "board": { "type": "charuco", "squares": [15, 15], "square_m": 0.03, "marker_m": 0.0225,
 ///                  "dictionary": "DICT_5X5_250" } }
 ///
-/// `images` and `model` are relative to the file. So is `masks`, which may be left out: a folder with
+/// `images` and `model`, any that FindModel finds, are relative to the file. So is `masks`, which may be left out: a folder with
 /// masks named after the image with .png behind, l.jpg.png, as COLMAP has them; what is black in a mask is
 /// ignored in the image. `clusters` and `board` may be left out. A
 /// chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
@@ -62,7 +62,7 @@ struct Scene
 {
   std::string file;              ///< the scene.json
   std::string images;            ///< folder of the photographs as the file gives it
-  std::string model;             ///< folder of the camera model as the file gives it
+  std::string model;             ///< folder or file of the camera model as the file gives it
   std::string masks;             ///< folder of the masks as the file gives it; empty: none
   std::vector<Cluster> clusters; ///< empty when the file has none: they are to be proposed
   std::optional<Board> board;
@@ -76,8 +76,8 @@ struct Scene
   std::string MaskPath(const std::string& image) const;
 };
 
-/// Reads a scene.json, or that of a folder. Of a folder with a model (FindSparseModel) and no scene.json it
-/// makes a scene whose photographs are in the folder `images` beside the model or above it. Throws Error
+/// Reads a scene.json, or that of a folder. Of a model (FindModel) it makes a scene whose photographs are
+/// where the model's file tells, or else in the folder `images` beside the model or above it. Throws Error
 /// naming the file and the fault: broken JSON, a missing, unknown or ill-typed key, a triplet without the
 /// reference in its middle or with an image twice, two clusters of one name, a board that makes no sense.
 Scene ReadScene(const std::string& file);
@@ -90,6 +90,9 @@ void WriteScene(const Scene& scene, const std::string& file);
 /// what is put into `scaled`). Throws Error when that fails (see ReadSparseModel) or when a
 /// cluster names an image that the model does not have.
 SparseModel ReadSceneModel(const Scene& scene, std::string* scaled = nullptr);
+
+/// The images of a model (FindModel) or of a scene's. Throws as ReadSparseModel, ReadScene and ReadSceneModel do.
+std::vector<CalibratedImage> ReadCameras(const std::string& path);
 
 /// The images of the scene's model. Throws as ReadSceneModel does.
 std::vector<CalibratedImage> ReadSceneImages(const Scene& scene);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SparseModel/ColmapModel.h"
 
-#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/AtomicOutput.h"
+#include "SparseModel/ColmapRecords.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <type_traits>
 
 namespace freespace
 {
@@ -16,7 +20,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-// A file of the model; the names of the calls are those of BinarySource and TextSource.
+// The archives of ColmapRecords.h that write.
+
 class BinaryTarget
 {
 public:
@@ -25,19 +30,45 @@ public:
   {
   }
 
-  template <typename Value>
-  void Put(Value value)
+  template <typename Number>
+  void Value(const Number& number, const char*)
   {
-    this->Stream.write(reinterpret_cast<const char*>(&value), sizeof(value));
+    this->Stream.write(reinterpret_cast<const char*>(&number), sizeof(number));
   }
 
-  void Text(const std::string& text)
+  template <typename Numbers>
+  void Fixed(const Numbers& numbers, const char* what)
   {
-    this->Stream.write(text.c_str(), static_cast<std::streamsize>(text.size() + 1));
+    for (const auto& number : numbers)
+    {
+      this->Value(number, what);
+    }
   }
 
-  bool Close()
+  void Model(const SparseCamera& camera)
   {
+    this->Value(static_cast<std::int32_t>(camera.model), "");
+  }
+
+  void Name(const std::string& name)
+  {
+    this->Stream.write(name.c_str(), static_cast<std::streamsize>(name.size() + 1));
+  }
+
+  void Observed(std::uint64_t id) { this->Value(id, ""); }
+  void NextLine() {}
+
+  template <typename Record, typename Visit>
+  void List(const std::vector<Record>& list, std::size_t, const Visit& each)
+  {
+    this->Value(static_cast<std::uint64_t>(list.size()), "");
+    std::for_each(list.begin(), list.end(), each);
+  }
+
+  template <typename Record, typename Visit>
+  bool Records(const std::vector<Record>& list, const Visit& each)
+  {
+    this->List(list, 0, each);
     this->Stream.close();
     return this->Stream.good();
   }
@@ -54,32 +85,64 @@ public:
   {
   }
 
-  void Comment(const char* text) { this->Stream << "# " << text << "\n"; }
-
   // The shortest text that is read as the same number.
-  template <typename Value>
-  TextTarget& Put(Value value)
+  template <typename Number>
+  void Value(Number number, const char*)
   {
     char text[40];
-    const auto result = std::to_chars(text, text + sizeof(text), value);
-    return this->Text(std::string(text, result.ptr));
+    std::to_chars_result result{};
+    if constexpr (std::is_same_v<Number, std::uint8_t>)
+    {
+      result = std::to_chars(text, text + sizeof(text), static_cast<int>(number));
+    }
+    else
+    {
+      result = std::to_chars(text, text + sizeof(text), number);
+    }
+    this->Name(std::string(text, result.ptr));
   }
 
-  TextTarget& Text(const std::string& text)
+  template <typename Numbers>
+  void Fixed(const Numbers& numbers, const char* what)
+  {
+    for (const auto& number : numbers)
+    {
+      this->Value(number, what);
+    }
+  }
+
+  void Model(const SparseCamera& camera) { this->Name(LensModelName(camera.model)); }
+
+  void Name(const std::string& text)
   {
     this->Stream << (this->AtBegin ? "" : " ") << text;
     this->AtBegin = false;
-    return *this;
   }
 
-  void EndLine()
+  void Observed(std::uint64_t id) { this->Value(static_cast<std::int64_t>(id), ""); } // none: -1
+
+  void NextLine()
   {
     this->Stream << "\n";
     this->AtBegin = true;
   }
 
-  bool Close()
+  template <typename Record, typename Visit>
+  void List(const std::vector<Record>& list, std::size_t, const Visit& each)
   {
+    std::for_each(list.begin(), list.end(), each);
+  }
+
+  void Comment(const char* text) { this->Stream << "# " << text << "\n"; }
+
+  template <typename Record, typename Visit>
+  bool Records(const std::vector<Record>& list, const Visit& each)
+  {
+    for (const Record& record : list)
+    {
+      each(record);
+      this->NextLine();
+    }
     this->Stream.close();
     return this->Stream.good();
   }
@@ -89,149 +152,48 @@ private:
   bool AtBegin = true;
 };
 
-bool WriteBinaryCameras(const SparseModel& model, const fs::path& file)
+template <typename Target>
+bool WriteFiles(const SparseModel& model, Target& cameras, Target& images, Target& points)
 {
-  BinaryTarget target(file);
-  target.Put<std::uint64_t>(model.cameras.size());
-  for (const SparseCamera& camera : model.cameras)
-  {
-    target.Put(camera.id);
-    target.Put(static_cast<std::int32_t>(camera.model));
-    target.Put(camera.width);
-    target.Put(camera.height);
-    for (double parameter : camera.parameters)
-    {
-      target.Put(parameter);
-    }
-  }
-  return target.Close();
+  return cameras.Records(
+           model.cameras, [&](const SparseCamera& camera) { VisitCamera(cameras, camera); }) &&
+    images.Records(model.images,
+      [&](const SparseImage& image)
+      {
+        VisitImage(images, image);
+        images.NextLine();
+        VisitObservations(images, image);
+      }) &&
+    points.Records(model.points,
+      [&](const SparsePoint& point)
+      {
+        VisitPoint(points, point);
+        VisitTrack(points, point);
+      });
 }
 
-bool WriteBinaryImages(const SparseModel& model, const fs::path& file)
+bool WriteBinaryFiles(const SparseModel& model, const fs::path& folder)
 {
-  BinaryTarget target(file);
-  target.Put<std::uint64_t>(model.images.size());
-  for (const SparseImage& image : model.images)
-  {
-    target.Put(image.id);
-    for (double q : image.rotation)
-    {
-      target.Put(q);
-    }
-    for (double t : image.translation)
-    {
-      target.Put(t);
-    }
-    target.Put(image.camera);
-    target.Text(image.name);
-    target.Put<std::uint64_t>(image.observations.size());
-    for (const SparseObservation& observation : image.observations)
-    {
-      target.Put(observation.pixel.x());
-      target.Put(observation.pixel.y());
-      target.Put(observation.point);
-    }
-  }
-  return target.Close();
+  BinaryTarget cameras(folder / "cameras.bin"), images(folder / "images.bin");
+  BinaryTarget points(folder / "points3D.bin");
+  return WriteFiles(model, cameras, images, points);
 }
 
-bool WriteBinaryPoints(const SparseModel& model, const fs::path& file)
+bool WriteTextFiles(const SparseModel& model, const fs::path& folder)
 {
-  BinaryTarget target(file);
-  target.Put<std::uint64_t>(model.points.size());
-  for (const SparsePoint& point : model.points)
-  {
-    target.Put(point.id);
-    for (double x : point.position)
-    {
-      target.Put(x);
-    }
-    for (std::uint8_t channel : point.color)
-    {
-      target.Put(channel);
-    }
-    target.Put(point.error);
-    target.Put<std::uint64_t>(point.track.size());
-    for (const SparseTrackElement& element : point.track)
-    {
-      target.Put(element.image);
-      target.Put(element.observation);
-    }
-  }
-  return target.Close();
+  TextTarget cameras(folder / "cameras.txt"), images(folder / "images.txt");
+  TextTarget points(folder / "points3D.txt");
+  cameras.Comment("CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]");
+  images.Comment("IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME");
+  images.Comment("POINTS2D[] as (X, Y, POINT3D_ID)");
+  points.Comment("POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)");
+  return WriteFiles(model, cameras, images, points);
 }
 
-bool WriteTextCameras(const SparseModel& model, const fs::path& file)
+void RemoveFiles(
+  const fs::path& folder, std::initializer_list<const char*> names, const char* ending)
 {
-  TextTarget target(file);
-  target.Comment("CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]");
-  for (const SparseCamera& camera : model.cameras)
-  {
-    target.Put(camera.id).Text(LensModelName(camera.model)).Put(camera.width).Put(camera.height);
-    for (double parameter : camera.parameters)
-    {
-      target.Put(parameter);
-    }
-    target.EndLine();
-  }
-  return target.Close();
-}
-
-bool WriteTextImages(const SparseModel& model, const fs::path& file)
-{
-  TextTarget target(file);
-  target.Comment("IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME");
-  target.Comment("POINTS2D[] as (X, Y, POINT3D_ID)");
-  for (const SparseImage& image : model.images)
-  {
-    target.Put(image.id);
-    for (double q : image.rotation)
-    {
-      target.Put(q);
-    }
-    for (double t : image.translation)
-    {
-      target.Put(t);
-    }
-    target.Put(image.camera).Text(image.name).EndLine();
-    for (const SparseObservation& observation : image.observations)
-    {
-      target.Put(observation.pixel.x()).Put(observation.pixel.y());
-      target.Put(static_cast<std::int64_t>(observation.point)); // none: -1
-    }
-    target.EndLine();
-  }
-  return target.Close();
-}
-
-bool WriteTextPoints(const SparseModel& model, const fs::path& file)
-{
-  TextTarget target(file);
-  target.Comment("POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)");
-  for (const SparsePoint& point : model.points)
-  {
-    target.Put(point.id);
-    for (double x : point.position)
-    {
-      target.Put(x);
-    }
-    for (std::uint8_t channel : point.color)
-    {
-      target.Put(static_cast<int>(channel));
-    }
-    target.Put(point.error);
-    for (const SparseTrackElement& element : point.track)
-    {
-      target.Put(element.image).Put(element.observation);
-    }
-    target.EndLine();
-  }
-  return target.Close();
-}
-
-void RemoveFiles(const fs::path& folder, const char* ending)
-{
-  for (const char* name : { "cameras", "images", "points3D" })
+  for (const char* name : names)
   {
     std::error_code ignored;
     fs::remove(folder / (std::string(name) + ending), ignored);
@@ -248,17 +210,15 @@ void WriteColmapModel(const SparseModel& model, const std::string& folder, Colma
   const std::string ending = text ? ".txt" : ".bin";
   AtomicOutput output((fs::path(folder) / ("cameras" + ending)).string());
   const fs::path made = fs::path(output.Path()).parent_path();
-  const bool done = text ? WriteTextCameras(model, made / "cameras.txt") &&
-      WriteTextImages(model, made / "images.txt") && WriteTextPoints(model, made / "points3D.txt")
-                         : WriteBinaryCameras(model, made / "cameras.bin") &&
-      WriteBinaryImages(model, made / "images.bin") &&
-      WriteBinaryPoints(model, made / "points3D.bin");
+  const bool done = text ? WriteTextFiles(model, made) : WriteBinaryFiles(model, made);
   if (!done)
   {
     throw Error("Cannot write the camera model " + folder + ": the disk is full or failed.");
   }
   output.Commit();
-  RemoveFiles(folder, text ? ".bin" : ".txt");
+  RemoveFiles(folder, { "cameras", "images", "points3D" }, text ? ".bin" : ".txt");
+  RemoveFiles(folder, { "rigs", "frames" }, ".bin");
+  RemoveFiles(folder, { "rigs", "frames" }, ".txt");
 }
 
 }

@@ -3,6 +3,8 @@
 
 #include "Common/Error.h"
 
+#include <algorithm>
+#include <cctype>
 #include <climits>
 #include <cmath>
 #include <unordered_map>
@@ -20,17 +22,55 @@ Eigen::Matrix3d Intrinsics(double fx, double fy, double cx, double cy)
   return K;
 }
 
+// What is to be known of a camera model.
+struct LensModelTraits
+{
+  LensModel model;
+  const char* name;
+  LensKind kind;
+  std::size_t focalLengths;
+  std::size_t coefficients; // of distortion
+};
+
+constexpr LensModelTraits lensModels[] = {
+  { LensModel::SimplePinhole, "SIMPLE_PINHOLE", LensKind::Perspective, 1, 0 },
+  { LensModel::Pinhole, "PINHOLE", LensKind::Perspective, 2, 0 },
+  { LensModel::SimpleRadial, "SIMPLE_RADIAL", LensKind::Perspective, 1, 1 },
+  { LensModel::Radial, "RADIAL", LensKind::Perspective, 1, 2 },
+  { LensModel::OpenCV, "OPENCV", LensKind::Perspective, 2, 4 },
+  { LensModel::OpenCVFisheye, "OPENCV_FISHEYE", LensKind::Fisheye, 2, 4 },
+  { LensModel::FullOpenCV, "FULL_OPENCV", LensKind::Perspective, 2, 8 },
+  { LensModel::FieldOfView, "FOV", LensKind::FieldOfView, 2, 1 },
+  { LensModel::SimpleRadialFisheye, "SIMPLE_RADIAL_FISHEYE", LensKind::Fisheye, 1, 1 },
+  { LensModel::RadialFisheye, "RADIAL_FISHEYE", LensKind::Fisheye, 1, 2 },
+  { LensModel::ThinPrismFisheye, "THIN_PRISM_FISHEYE", LensKind::ThinPrismFisheye, 2, 8 },
+};
+
+const LensModelTraits& TraitsOf(LensModel model)
+{
+  for (const LensModelTraits& traits : lensModels)
+  {
+    if (traits.model == model)
+    {
+      return traits;
+    }
+  }
+  throw Error("There is no camera model number " + std::to_string(static_cast<int>(model)) + ".");
+}
+
 void SetLens(const SparseCamera& from, CalibratedImage& to)
 {
   const std::vector<double>& p = from.parameters;
-  const std::size_t focalLengths = FocalLengths(from.model);
-  to.camera.K = Intrinsics(p[0], p[focalLengths - 1], p[focalLengths], p[focalLengths + 1]);
+  const LensModelTraits& traits = TraitsOf(from.model);
+  const std::size_t focal = traits.focalLengths;
+  to.camera.K = Intrinsics(p[0], p[focal - 1], p[focal], p[focal + 1]);
   to.camera.width = static_cast<int>(from.width);
   to.camera.height = static_cast<int>(from.height);
-  to.distortion.assign(p.begin() + static_cast<std::ptrdiff_t>(focalLengths + 2), p.end());
-  if (focalLengths == 1 && !to.distortion.empty())
+  to.lens = traits.kind;
+  to.distortion.assign(p.begin() + static_cast<std::ptrdiff_t>(focal + 2), p.end());
+  if (focal == 1 && !to.distortion.empty())
   {
-    to.distortion.resize(4, 0.0); // k1 [k2] without p1 p2
+    to.distortion.resize(4, 0.0); // k1 [k2] without p1 p2 or k3 k4
   }
 }
 
@@ -45,48 +85,65 @@ void SetPose(const SparseImage& from, CalibratedImage& to)
 
 std::string LensModelName(LensModel model)
 {
-  switch (model)
+  return TraitsOf(model).name;
+}
+
+std::optional<LensModel> LensModelOf(std::string_view name)
+{
+  for (const LensModelTraits& traits : lensModels)
   {
-    case LensModel::SimplePinhole:
-      return "SIMPLE_PINHOLE";
-    case LensModel::Pinhole:
-      return "PINHOLE";
-    case LensModel::SimpleRadial:
-      return "SIMPLE_RADIAL";
-    case LensModel::Radial:
-      return "RADIAL";
-    case LensModel::OpenCV:
-      return "OPENCV";
-    case LensModel::FullOpenCV:
-      return "FULL_OPENCV";
+    if (traits.name == name)
+    {
+      return traits.model;
+    }
   }
-  throw Error("There is no camera model number " + std::to_string(static_cast<int>(model)) + ".");
+  return std::nullopt;
+}
+
+std::optional<LensModel> LensModelOf(int number)
+{
+  for (const LensModelTraits& traits : lensModels)
+  {
+    if (static_cast<int>(traits.model) == number)
+    {
+      return traits.model;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string UnsupportedLens(std::string_view name)
+{
+  std::string small(name.substr(0, 40));
+  std::transform(small.begin(), small.end(), small.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  for (const char* panorama : { "equirectangular", "spherical", "panorama" })
+  {
+    if (small.find(panorama) != std::string::npos)
+    {
+      return "equirectangular images (" + std::string(name.substr(0, 40)) +
+        ") are not supported: cut them into perspective ones first, with COLMAP's panorama_sfm.py "
+        "or AliceVision's split360Images";
+    }
+  }
+  std::string list;
+  for (const LensModelTraits& traits : lensModels)
+  {
+    list += (list.empty() ? "" : ", ") + std::string(traits.name);
+  }
+  return "the camera model " + std::string(name.substr(0, 40)) + " is not supported; " + list +
+    " are";
 }
 
 std::size_t LensModelParameters(LensModel model)
 {
-  switch (model)
-  {
-    case LensModel::SimplePinhole:
-      return 3;
-    case LensModel::Pinhole:
-    case LensModel::SimpleRadial:
-      return 4;
-    case LensModel::Radial:
-      return 5;
-    case LensModel::OpenCV:
-      return 8;
-    case LensModel::FullOpenCV:
-      return 12;
-  }
-  throw Error("There is no camera model number " + std::to_string(static_cast<int>(model)) + ".");
+  const LensModelTraits& traits = TraitsOf(model);
+  return traits.focalLengths + 2 + traits.coefficients;
 }
 
 std::size_t FocalLengths(LensModel model)
 {
-  const bool one = model == LensModel::SimplePinhole || model == LensModel::SimpleRadial ||
-    model == LensModel::Radial;
-  return one ? 1 : 2;
+  return TraitsOf(model).focalLengths;
 }
 
 SparseTracks::SparseTracks(const SparseModel& model)
@@ -161,6 +218,15 @@ std::string FaultOf(const SparsePoint& point)
     : "point " + std::to_string(point.id) + " has a position that is not finite";
 }
 
+CalibratedImage CalibratedImageOf(const SparseImage& image, const SparseCamera& camera)
+{
+  CalibratedImage calibrated;
+  calibrated.file = image.name;
+  SetLens(camera, calibrated);
+  SetPose(image, calibrated);
+  return calibrated;
+}
+
 std::vector<CalibratedImage> CalibratedImages(const SparseModel& model)
 {
   std::unordered_map<std::uint32_t, const SparseCamera*> cameras;
@@ -178,10 +244,7 @@ std::vector<CalibratedImage> CalibratedImages(const SparseModel& model)
       throw Error("The image " + image.name + " names an unknown camera, number " +
         std::to_string(image.camera) + ".");
     }
-    CalibratedImage& calibrated = images.emplace_back();
-    calibrated.file = image.name;
-    SetLens(*camera->second, calibrated);
-    SetPose(image, calibrated);
+    images.push_back(CalibratedImageOf(image, *camera->second));
   }
   return images;
 }

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace freespace
@@ -15,16 +17,28 @@ namespace freespace
 /// The camera models that are supported, under COLMAP's numbers.
 enum class LensModel
 {
-  SimplePinhole = 0, ///< f cx cy
-  Pinhole = 1,       ///< fx fy cx cy
-  SimpleRadial = 2,  ///< f cx cy k1
-  Radial = 3,        ///< f cx cy k1 k2
-  OpenCV = 4,        ///< fx fy cx cy k1 k2 p1 p2
-  FullOpenCV = 6     ///< fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6
+  SimplePinhole = 0,       ///< f cx cy
+  Pinhole = 1,             ///< fx fy cx cy
+  SimpleRadial = 2,        ///< f cx cy k1
+  Radial = 3,              ///< f cx cy k1 k2
+  OpenCV = 4,              ///< fx fy cx cy k1 k2 p1 p2
+  OpenCVFisheye = 5,       ///< fx fy cx cy k1 k2 k3 k4
+  FullOpenCV = 6,          ///< fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6
+  FieldOfView = 7,         ///< fx fy cx cy omega
+  SimpleRadialFisheye = 8, ///< f cx cy k1
+  RadialFisheye = 9,       ///< f cx cy k1 k2
+  ThinPrismFisheye = 10    ///< fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1
 };
 
 /// COLMAP's name, for instance "SIMPLE_RADIAL".
 std::string LensModelName(LensModel model);
+
+/// The model of COLMAP's name or number; nothing for one that is not supported.
+std::optional<LensModel> LensModelOf(std::string_view name);
+std::optional<LensModel> LensModelOf(int number);
+
+/// Why a camera model, by COLMAP's or another program's name, is not supported, as a clause.
+std::string UnsupportedLens(std::string_view name);
 
 /// How many parameters a model has.
 std::size_t LensModelParameters(LensModel model);
@@ -84,6 +98,8 @@ struct SparseModel
   std::vector<SparseCamera> cameras;
   std::vector<SparseImage> images;
   std::vector<SparsePoint> points;
+  /// To which the names of images are relative, where the file that was read tells; else empty.
+  std::string folder;
 };
 
 /// An observation by indices into the model's lists.
@@ -107,6 +123,9 @@ struct SparseTracks
 std::string FaultOf(const SparseCamera& camera);
 std::string FaultOf(const SparseImage& image);
 std::string FaultOf(const SparsePoint& point);
+
+/// An image with the camera that took it.
+CalibratedImage CalibratedImageOf(const SparseImage& image, const SparseCamera& camera);
 
 /// Every image of the model with its pinhole camera and distortion, in the model's order. Throws
 /// Error when an image names a camera that the model does not hold.

@@ -3,12 +3,11 @@
 
 #include "Common/Error.h"
 #include "Common/Median.h"
+#include "Images/LensDistortion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-
-#include <opencv2/calib3d.hpp>
 
 namespace freespace
 {
@@ -182,31 +181,6 @@ void SparseViewOptions::Check() const
     throw Error("The largest reprojection error must be positive and the least triangulation angle "
                 "at least 0 and below 90 degrees.");
   }
-}
-
-std::vector<Eigen::Vector2d> UndistortPixels(
-  const CalibratedImage& image, const std::vector<Eigen::Vector2d>& pixels)
-{
-  if (image.distortion.empty() || pixels.empty())
-  {
-    return pixels;
-  }
-  const Eigen::Matrix3d& k = image.camera.K;
-  const cv::Matx33d matrix(
-    k(0, 0), k(0, 1), k(0, 2), k(1, 0), k(1, 1), k(1, 2), k(2, 0), k(2, 1), k(2, 2));
-  std::vector<cv::Point2d> distorted, undistorted;
-  for (const Eigen::Vector2d& pixel : pixels)
-  {
-    distorted.emplace_back(pixel.x(), pixel.y());
-  }
-  cv::undistortPoints(distorted, undistorted, matrix, image.distortion, cv::noArray(), matrix,
-    cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10));
-  std::vector<Eigen::Vector2d> result;
-  for (const cv::Point2d& pixel : undistorted)
-  {
-    result.emplace_back(pixel.x, pixel.y);
-  }
-  return result;
 }
 
 std::vector<SparseView> ViewsFromModel(

@@ -38,10 +38,6 @@ struct SparseView : View
 std::vector<SparseView> ViewsFromModel(const SparseModel& model, const SparseViewOptions& options,
   const ParallelFor& parallelFor = SerialFor);
 
-/// The pixels that the pinhole camera sees where the lens with its distortion shows the given ones.
-std::vector<Eigen::Vector2d> UndistortPixels(
-  const CalibratedImage& image, const std::vector<Eigen::Vector2d>& pixels);
-
 }
 
 #endif

@@ -4,9 +4,9 @@
 #include "Edges/MaskedEdges.h"
 #include "Images/ImageFile.h"
 #include "Images/ImageMask.h"
+#include "Images/LensDistortion.h"
 
-#include <opencv2/calib3d.hpp>
-
+#include <utility>
 #include <vector>
 
 namespace freespace
@@ -15,36 +15,36 @@ namespace freespace
 namespace
 {
 
-// Moves the tokens to where a camera without distortion would see them. Tangents turn with them.
-void Undistort(const CalibratedImage& image, EdgeChains& edges)
+// Moves the tokens to where a camera without distortion would see them. Tangents turn with them. What such
+// a camera does not see, at the rim of a fisheye lens's image, goes.
+EdgeChains Undistort(const CalibratedImage& image, EdgeChains edges, int minimumLength)
 {
-  if (image.distortion.empty() || edges.tokens.empty())
+  if (image.IsPinhole() || edges.tokens.empty())
   {
-    return;
+    return edges;
   }
   constexpr double half = 0.5; // pixels along the edge, to either side
-  std::vector<cv::Point2d> points, ideal;
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(3 * edges.tokens.size());
   for (const EdgeToken& token : edges.tokens)
   {
     for (const double step : { 0.0, -half, half })
     {
-      const Eigen::Vector2d p = token.position + step * token.tangent;
-      points.emplace_back(p.x(), p.y());
+      points.push_back(token.position + step * token.tangent);
     }
   }
-  const Eigen::Matrix3d& K = image.camera.K;
-  const cv::Matx33d intrinsics(
-    K(0, 0), K(0, 1), K(0, 2), K(1, 0), K(1, 1), K(1, 2), K(2, 0), K(2, 1), K(2, 2));
-  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10);
-  cv::undistortPoints(
-    points, ideal, intrinsics, image.distortion, cv::noArray(), intrinsics, criteria);
+  const std::vector<Eigen::Vector2d> ideal = UndistortPixels(image, points);
+  std::vector<char> unseen(edges.tokens.size(), 0);
+  bool allSeen = true;
   for (std::size_t i = 0; i < edges.tokens.size(); ++i)
   {
-    const cv::Point2d& center = ideal[3 * i];
-    const cv::Point2d along = ideal[3 * i + 2] - ideal[3 * i + 1];
-    edges.tokens[i].position = { center.x, center.y };
-    edges.tokens[i].tangent = Eigen::Vector2d(along.x, along.y).normalized();
+    const Eigen::Vector2d along = ideal[3 * i + 2] - ideal[3 * i + 1];
+    unseen[i] = !ideal[3 * i].allFinite() || !along.allFinite();
+    allSeen = allSeen && !unseen[i];
+    edges.tokens[i].position = ideal[3 * i];
+    edges.tokens[i].tangent = along.normalized();
   }
+  return allSeen ? edges : EdgesWithout(edges, unseen, minimumLength);
 }
 
 }
@@ -73,8 +73,7 @@ EdgeChains EdgeStore::Find(const CalibratedImage& image) const
   {
     edges = EdgesOutside(edges, LoadMask(mask, width, height), this->Options.minimumLength);
   }
-  Undistort(image, edges);
-  return edges;
+  return Undistort(image, std::move(edges), this->Options.minimumLength);
 }
 
 }

@@ -48,6 +48,7 @@ TextSource::TextSource(const std::string& file, Lines lines)
   : File(file)
   , Content(ReadWholeFile(file))
   , EndsOfLines(lines)
+  , Position(std::string_view(this->Content).substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0)
 {
 }
 

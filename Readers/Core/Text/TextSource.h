@@ -14,7 +14,8 @@ namespace freespace
 /// The content of a file. Throws Error naming it when it cannot be read.
 std::string ReadWholeFile(const std::string& file);
 
-/// Reads a text file by lines and the fields of a line, which are separated by blanks. Throws Error
+/// Reads a text file by lines and the fields of a line, which are separated by blanks. A byte order mark of
+/// UTF-8 at its beginning is skipped. Throws Error
 /// naming the file, the line and the fault when the text is not as requested.
 class TextSource
 {
@@ -42,6 +43,9 @@ public:
 
   /// All that is left of the line.
   std::string_view Remainder(const char* what);
+
+  /// What is left of the line, which stays to be read.
+  std::string_view Ahead() const { return this->Rest; }
 
   /// The next field as a number.
   template <typename Value>

@@ -81,7 +81,7 @@ TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)
   for (const SparsePoint& point : model.points)
   {
     EXPECT_LT(
-      (ShowPoint(after[0], point.position) - 0.5 * ShowPoint(before[0], point.position)).norm(),
+      (ShowPoint(model, 0, point.position) - 0.5 * ShowPoint(given, 0, point.position)).norm(),
       1e-9);
   }
 }

@@ -271,21 +271,23 @@ TEST(ColmapModel, MissingImages)
 
 TEST(ColmapModel, UnsupportedModel)
 {
-  ExpectTextError("cameras.txt", "\n1 FOV 640 480 1 1 1 1 1\n",
-    { "cameras.txt, line 2", "FOV", "not supported" });
+  ExpectTextError("cameras.txt", "\n1 EUCM 640 480 1 1 1 1 1\n",
+    { "cameras.txt, line 2", "EUCM", "not supported", "THIN_PRISM_FISHEYE" });
+  ExpectTextError(
+    "cameras.txt", "1 EQUIRECTANGULAR 640 480\n", { "line 1", "equirectangular", "panorama_sfm" });
   TemporaryFolder folder;
   WriteBinaryModel(folder);
   std::string cameras = BinaryCameras();
-  cameras[12] = 5;
+  cameras[12] = 11;
   folder.Write("cameras.bin", cameras);
-  ExpectError(folder, { "cameras.bin", "OPENCV_FISHEYE", "not supported" });
+  ExpectError(folder, { "cameras.bin", "number 11", "not supported" });
 }
 
 TEST(ColmapModel, MalformedCameras)
 {
   const std::string file = "cameras.txt";
   ExpectTextError(file, "1 PINHOLE 640 480 500 510 320.5\n", { "line 1", "ends before" });
-  ExpectTextError(file, "1 PINHOLE 640 480 500 510 320.5 1 2\n", { "line 1", "4 parameters" });
+  ExpectTextError(file, "1 PINHOLE 640 480 500 510 320.5 1 2\n", { "line 1", "more", "'2'" });
   ExpectTextError(file, "one PINHOLE 640 480 500 510 320 240\n", { "line 1", "'one'" });
   ExpectTextError(file, "-1 PINHOLE 640 480 500 510 320 240\n", { "line 1", "'-1'" });
   ExpectTextError(file, "1 PINHOLE 0 480 500 510 320 240\n", { "line 1", "width" });
@@ -373,7 +375,7 @@ TEST(ColmapModel, DamagedBinary)
 
 TEST(ColmapModel, WrittenAndReadAgain)
 {
-  for (const LensModel lens : { LensModel::Pinhole, LensModel::Radial })
+  for (const LensModel lens : everyLensModel)
   {
     SparseModel model = MakeSyntheticModel(5, 100, lens);
     model.images[1].name = "a name with blanks.jpg";

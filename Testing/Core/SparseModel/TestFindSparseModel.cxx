@@ -4,7 +4,7 @@
 #include "Common/Error.h"
 #include "Scene/Scene.h"
 #include "SparseModel/ColmapModel.h"
-#include "SparseModel/ReadSparseModel.h"
+#include "ModelFiles/ReadSparseModel.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
 

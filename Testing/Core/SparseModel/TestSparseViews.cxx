@@ -164,7 +164,6 @@ TEST(SparseViews, TriangulationAngle)
     image.camera = 1;
     image.translation = { 0.1 - 0.1 * i, 0, 0 };
   }
-  const std::vector<CalibratedImage> images = CalibratedImages(model);
   const double degrees[] = { 1.9, 2.1, 30, 40 };
   for (std::size_t k = 0; k < 4; ++k)
   {
@@ -173,7 +172,7 @@ TEST(SparseViews, TriangulationAngle)
     point.position = { 0, 0, 0.1 / std::tan(degrees[k] / 2 * M_PI / 180) };
     for (std::size_t i = 0; i < 3; ++i)
     {
-      Observe(model, i, k, ShowPoint(images[i], point.position));
+      Observe(model, i, k, ShowPoint(model, i, point.position));
     }
   }
   SparseViewOptions options = NoLimits();

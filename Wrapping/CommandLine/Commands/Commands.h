@@ -12,6 +12,7 @@ class Session;
 /// Each adds one command of the program, with its options, its help and what it does.
 void AddReconstructCommand(CLI::App& program, Session& session);
 void AddSparseCommand(CLI::App& program, Session& session);
+void AddDepthCommand(CLI::App& program, Session& session);
 void AddCalibrateCommand(CLI::App& program, Session& session);
 void AddClustersCommand(CLI::App& program, Session& session);
 void AddRefineCommand(CLI::App& program, Session& session);

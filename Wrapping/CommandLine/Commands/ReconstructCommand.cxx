@@ -41,8 +41,8 @@ void AddOptions(CLI::App& command, Settings& settings)
 {
   command
     .add_option("scene", settings.scene,
-      "A scene.json, or a structure-from-motion model: a folder with COLMAP's files, a bundle.out "
-      "or a .nvm")
+      "A scene.json, or a structure-from-motion model: a folder with COLMAP's files, or a file of "
+      "another program")
     ->required()
     ->type_name("SCENE.json|MODEL");
   command.add_option("-o,--output", settings.output, "The surface to write (.ply .stl .obj .vtp)")

@@ -50,10 +50,10 @@ void AddOptions(CLI::App& command, Settings& settings)
   auto* scene = command
                   .add_option("--scene", settings.scene,
                     "The scene whose camera to look from; without --view from between its cameras")
-                  ->type_name("SCENE.json");
+                  ->type_name("SCENE.json|MODEL");
   auto* model =
-    command.add_option("--model", settings.model, "The same for the cameras of a COLMAP model")
-      ->type_name("FOLDER")
+    command.add_option("--model", settings.model, "The same for the cameras of a model")
+      ->type_name("MODEL")
       ->excludes(scene);
   auto* view =
     command.add_option("--view", settings.view, "The image whose camera it is")->type_name("NAME");

@@ -30,7 +30,8 @@ void AddSparseCommand(CLI::App& program, Session& session)
   CLI::App* command =
     program.add_subcommand("sparse", "Take features from a structure-from-motion model");
   command
-    ->add_option("model", settings->model, "A folder with COLMAP's files, a bundle.out or a .nvm")
+    ->add_option("model", settings->model,
+      "A folder with COLMAP's files, or a file of another program: .nvm, .out, .sfm, sfm_data.json")
     ->required()
     ->type_name("MODEL");
   command->add_option("-o,--output", settings->output, "The features to write")

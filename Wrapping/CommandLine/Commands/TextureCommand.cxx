@@ -36,9 +36,10 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("MESH.ply");
-  command.add_option("--scene", settings.scene, "The scene whose photographs colour it")
+  command
+    .add_option("--scene", settings.scene, "The scene, or the model, whose photographs colour it")
     ->required()
-    ->type_name("SCENE.json");
+    ->type_name("SCENE.json|MODEL");
   command
     .add_option("-o,--output", settings.output,
       "The model to write: .glb, .obj with .mtl and .png, or .ply with colours of points")

@@ -71,8 +71,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     "viewpoint", "The viewpoint; default: close to the cameras, with all of the surface in sight");
   from->add_option("--view", settings.view, "The camera of this image of the scene")
     ->type_name("NAME");
-  from->add_option("--model", settings.model, "Each camera of this COLMAP model")
-    ->type_name("FOLDER");
+  from->add_option("--model", settings.model, "Each camera of this model")->type_name("MODEL");
   from->add_option("--turntable", settings.turntable, "So many cameras around the scene")
     ->check(Positive())
     ->type_name("N");

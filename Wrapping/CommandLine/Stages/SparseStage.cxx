@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stages/SparseStage.h"
 
+#include "ModelFiles/ReadSparseModel.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
-#include "SparseModel/FindSparseModel.h"
 
 #include <vtkFeatureSupportFilter.h>
 #include <vtkMultiBlockDataSet.h>
@@ -42,9 +42,7 @@ void SparseStage::AddOptions(CLI::App& command)
 vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
   Session& session, const std::string& model) const
 {
-  std::string told;
-  FindSparseModel(model, &told);
-  if (!told.empty())
+  if (const std::string told = FindModel(model).told; !told.empty())
   {
     session.Log("sparse: " + told);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SparseModel/BundlerModel.h"
+#include "ModelFiles/BundlerModel.h"
 
 #include "Common/Error.h"
 #include "Support/SyntheticModel.h"
@@ -14,8 +14,9 @@ using namespace freespace;
 namespace
 {
 
-// A model with lenses of the RADIAL kind as Bundler writes it: y up, looking along -z.
-std::string BundlerText(const SparseModel& model)
+// A model with lenses of the RADIAL kind as Bundler writes it: y up, looking along -z, pixels from the middle.
+// COLMAP writes them from the middle of the lower left one.
+std::string BundlerText(const SparseModel& model, bool fromCorner = false)
 {
   const std::vector<CalibratedImage> images = CalibratedImages(model);
   const SparseTracks tracks(model);
@@ -40,8 +41,9 @@ std::string BundlerText(const SparseModel& model)
     for (const SparseLink& link : tracks.ofPoint[i])
     {
       const Eigen::Vector2d pixel = model.images[link.image].observations[link.observation].pixel;
-      text << " " << link.image << " " << link.observation << " " << pixel.x() - 400 << " "
-           << 300 - pixel.y();
+      text << " " << link.image << " " << link.observation << " "
+           << pixel.x() - (fromCorner ? 0.5 : 400) << " "
+           << (fromCorner ? 600 - 0.5 : 300) - pixel.y();
     }
     text << "\n";
   }
@@ -69,7 +71,6 @@ void ExpectError(const std::string& content, const std::vector<std::string>& wor
 // Cameras see what they saw: every observation is where the lens shows its point.
 void ExpectExactObservations(const SparseModel& model)
 {
-  const std::vector<CalibratedImage> images = CalibratedImages(model);
   const SparseTracks tracks(model);
   for (std::size_t i = 0; i < model.points.size(); ++i)
   {
@@ -77,7 +78,8 @@ void ExpectExactObservations(const SparseModel& model)
     for (const SparseLink& link : tracks.ofPoint[i])
     {
       const Eigen::Vector2d pixel = model.images[link.image].observations[link.observation].pixel;
-      EXPECT_LT((ShowPoint(images[link.image], model.points[i].position) - pixel).norm(), 1e-6);
+      const auto image = static_cast<std::size_t>(link.image);
+      EXPECT_LT((ShowPoint(model, image, model.points[i].position) - pixel).norm(), 1e-6);
     }
   }
 }
@@ -124,6 +126,42 @@ TEST(BundlerModel, NamesFromTheList)
   }
 }
 
+TEST(BundlerModel, ListsOfColmapAndVisualSFM)
+{
+  const std::string text = BundlerText(MakeSyntheticModel(2, 5, LensModel::Radial));
+  const std::pair<const char*, const char*> names[] = { { "scene.bundle.out", "scene.list.txt" },
+    { "scene.out", "scene.list.txt" }, { "scene.out", "scene.out.list.txt" },
+    { "scene.bundle.out", "scene.bundle.list.txt" } };
+  for (const auto& [file, list] : names)
+  {
+    TemporaryFolder folder;
+    folder.Write("list.txt", "of.jpg\nanother.jpg\n");
+    folder.Write(list,
+      "\xEF\xBB\xBF"
+      "a picture.jpg\nmy pictures/b 0 1.jpg 0 660.8\n");
+    const SparseModel model = ReadBundlerModel(folder.Write(file, text));
+    EXPECT_EQ(model.images[0].name, "a picture.jpg") << file << " " << list;
+    EXPECT_EQ(model.images[1].name, "my pictures/b 0 1.jpg");
+  }
+}
+
+// As COLMAP's model_converter writes it.
+TEST(BundlerModel, PixelsFromTheCornerAreThoseOfColmap)
+{
+  const SparseModel source = MakeSyntheticModel(4, 50, LensModel::Radial);
+  TemporaryFolder folder;
+  const SparseModel model =
+    ReadBundlerModel(folder.Write("a.bundle.out", BundlerText(source, true)));
+  ASSERT_EQ(model.images.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_EQ(model.cameras[i].parameters, source.cameras[0].parameters);
+    EXPECT_EQ(model.cameras[i].width, 800u);
+    EXPECT_EQ(model.cameras[i].height, 600u);
+  }
+  ExpectExactObservations(model);
+}
+
 TEST(BundlerModel, ListThatIsTooShort)
 {
   TemporaryFolder folder;
@@ -151,7 +189,7 @@ TEST(BundlerModel, Malformed)
   ExpectError("", { "bundle.out", "ends before" });
   ExpectError("# Bundle file v0.3\n1 0\n500 0 zero\n", { "line 3", "'zero'" });
   ExpectError("1 0\n500 0 0\n1 0 0\n0 2 0\n0 0 1\n0 0 0\n", { "camera 0", "rotation" });
-  ExpectError("0 1\n1 2 3\n9 8 7\n1 0 0 1 1\n", { "line 4", "no camera 0" });
+  ExpectError("0 1\n1 2 3\n9 8 7\n1 0 0 1 1\n", { "line 4", "no image 0" });
   ExpectError("0 1\n1 nan 3\n9 8 7\n0\n", { "not finite" });
   ExpectError("0 1\n1 2 3\n9 8 700\n0\n", { "line 3", "'700'" });
   ExpectError("1 0\n-500 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n", { "focal length" });

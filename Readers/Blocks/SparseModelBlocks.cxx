@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SparseModelBlocks.h"
+#include "Blocks/SparseModelBlocks.h"
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
@@ -161,9 +161,6 @@ private:
   vtkPolyData* Block;
 };
 
-constexpr LensModel lensModels[] = { LensModel::SimplePinhole, LensModel::Pinhole,
-  LensModel::SimpleRadial, LensModel::Radial, LensModel::OpenCV, LensModel::FullOpenCV };
-
 SparseCamera CameraOf(const View& view, const BlockArrays& arrays, std::uint32_t id)
 {
   SparseCamera camera;
@@ -171,14 +168,12 @@ SparseCamera CameraOf(const View& view, const BlockArrays& arrays, std::uint32_t
   camera.width = static_cast<std::uint64_t>(view.camera.width);
   camera.height = static_cast<std::uint64_t>(view.camera.height);
   const std::string name = arrays.TextOfField("LensModel");
-  for (LensModel model : lensModels)
+  const std::optional<LensModel> model = LensModelOf(name);
+  camera.parameters = arrays.OfField("LensParameters");
+  if (model && camera.parameters.size() == LensModelParameters(*model))
   {
-    camera.parameters = arrays.OfField("LensParameters");
-    if (LensModelName(model) == name && camera.parameters.size() == LensModelParameters(model))
-    {
-      camera.model = model;
-      return camera;
-    }
+    camera.model = *model;
+    return camera;
   }
   const Eigen::Matrix3d K = view.camera.K / view.camera.K(2, 2);
   if (K(0, 1) != 0 || K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0)

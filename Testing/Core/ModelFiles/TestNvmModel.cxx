@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SparseModel/NvmModel.h"
+#include "ModelFiles/NvmModel.h"
 
 #include "Common/Error.h"
 #include "SparseModel/SparseViews.h"
@@ -113,11 +113,79 @@ TEST(NvmModel, BlanksInNames)
   EXPECT_EQ(CalibratedImages(model)[0].camera.Center(), Eigen::Vector3d(1, 2, 3));
 }
 
+// COLMAP's export: pixels from the upper left corner, names with blanks, and -k1 for the distortion.
+TEST(NvmModel, PixelsFromTheCornerAreThoseOfColmap)
+{
+  for (const LensModel lens : { LensModel::SimplePinhole, LensModel::SimpleRadial })
+  {
+    const SparseModel source = MakeSyntheticModel(4, 50, lens);
+    const SparseTracks tracks(source);
+    std::ostringstream text;
+    text.precision(17);
+    text << "NVM_V3 \n \n4  \n";
+    const std::vector<CalibratedImage> expected = CalibratedImages(source);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const auto& q = source.images[i].rotation;
+      text << "my pictures/" << expected[i].file << " 700 " << q[0] << " " << q[1] << " " << q[2]
+           << " " << q[3] << " " << expected[i].camera.Center().transpose() << " "
+           << (lens == LensModel::SimpleRadial ? 0.1 : 0) << " 0\n";
+    }
+    text << "\n50\n";
+    for (std::size_t i = 0; i < 50; ++i)
+    {
+      text << source.points[i].position.transpose() << " 1 2 3 " << tracks.ofPoint[i].size();
+      for (const SparseLink& link : tracks.ofPoint[i])
+      {
+        text << " " << link.image << " " << link.observation << " "
+             << source.images[link.image].observations[link.observation].pixel.transpose();
+      }
+      text << "\n";
+    }
+    TemporaryFolder folder;
+    const SparseModel model = ReadNvmModel(folder.Write("model.nvm", text.str()));
+    ASSERT_EQ(model.images.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(model.images[i].name, "my pictures/" + expected[i].file);
+      EXPECT_EQ(model.cameras[i].model, lens);
+      EXPECT_EQ(model.cameras[i].parameters, source.cameras[0].parameters);
+      EXPECT_EQ(model.cameras[i].width, 800u);
+      EXPECT_EQ(model.cameras[i].height, 600u);
+      const CalibratedImage image = CalibratedImages(model)[i];
+      EXPECT_TRUE(image.camera.Center().isApprox(expected[i].camera.Center(), 1e-12));
+      for (const SparseObservation& observation : model.images[i].observations)
+      {
+        const Eigen::Vector3d& position = model.points[observation.point - 1].position;
+        EXPECT_LT((ShowPoint(model, i, position) - observation.pixel).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(NvmModel, FixedCalibration)
+{
+  TemporaryFolder folder;
+  const SparseModel model = ReadNvmModel(folder.Write("model.nvm",
+    "NVM_V3 FixedK 500 320.5 510 240.25\n1\na.jpg 500 1 0 0 0 0 0 0 0 0\n"
+    "1\n1 2 10 9 8 7 1 0 0 50 102\n"));
+  EXPECT_EQ(model.cameras.at(0).model, LensModel::Pinhole);
+  EXPECT_EQ(model.cameras[0].parameters, (std::vector<double>{ 500, 510, 320.5, 240.25 }));
+  EXPECT_EQ(model.cameras[0].width, 641u);
+  EXPECT_EQ(model.cameras[0].height, 481u);
+  EXPECT_EQ(model.images.at(0).observations.at(0).pixel, Eigen::Vector2d(370.5, 342.25));
+  EXPECT_LT(
+    (ShowPoint(model, 0, { 1, 2, 10 }) - model.images[0].observations[0].pixel).norm(), 1e-12);
+}
+
 TEST(NvmModel, Malformed)
 {
   ExpectError("", { "model.nvm", "ends before" });
   ExpectError("NVM_V2\n", { "line 1", "NVM_V3" });
-  ExpectError("NVM_V3 FixedK 1 2 3 4\n", { "line 1", "not supported" });
+  ExpectError("NVM_V3 FixedK 1 2 3\n", { "line 1", "FixedK", "ends before" });
+  ExpectError("NVM_V3 FixedK 1 2 3 x\n", { "line 1", "'x'" });
+  ExpectError("NVM_V3 FixedK 1 2 3 4 0.5\n", { "line 1", "distortion", "not supported" });
+  ExpectError("NVM_V3 Free 1 2 3 4\n", { "line 1", "'Free'" });
   ExpectError("NVM_V3\n1\na.jpg 500 0 0 0 0 1 2 3 0 0\n0\n", { "line 3", "pose" });
   ExpectError("NVM_V3\n1\na.jpg 0 1 0 0 0 1 2 3 0 0\n0\n", { "focal length" });
   ExpectError("NVM_V3\n1\na.jpg f 1 0 0 0 1 2 3 0 0\n0\n", { "line 3", "'f'" });
