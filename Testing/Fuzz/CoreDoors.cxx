@@ -5,10 +5,11 @@
 #include "Agreement/ProjectionErrors.h"
 #include "Calibration/BoardText.h"
 #include "Common/Error.h"
+#include "ModelFiles/BundlerModel.h"
+#include "ModelFiles/NvmModel.h"
+#include "ModelFiles/ReadSparseModel.h"
 #include "Scene/Scene.h"
-#include "SparseModel/BundlerModel.h"
 #include "SparseModel/ColmapModel.h"
-#include "SparseModel/NvmModel.h"
 #include "SparseModel/SparseViews.h"
 #include "Surface/SurfaceFile.h"
 #include "Text/NumberTable.h"
@@ -58,7 +59,7 @@ void ReadColmap(const std::vector<std::string_view>& parts, const std::string& e
   RemoveFile("model");
 }
 
-// COLMAP's text and binary, Bundler, VisualSFM. The first part is one letter, the kind of the model.
+// COLMAP's text and binary, Bundler, VisualSFM, nerfstudio, OpenMVG, AliceVision, Metashape, Middlebury. The first part is one letter, the kind of the model.
 void EnterModels(std::string_view bytes)
 {
   const std::vector<std::string_view> parts = Parts(bytes);
@@ -71,6 +72,16 @@ void EnterModels(std::string_view bytes)
   {
     PutFile("model.nvm", parts.back());
     Use(ReadNvmModel(FuzzFolder() + "/model.nvm"));
+  }
+  else if (const char* name = kind == 'j' ? "transforms.json"
+      : kind == 'm'                       ? "sfm_data.json"
+      : kind == 'a'                       ? "a.sfm"
+      : kind == 'x'                       ? "cameras.xml"
+      : kind == 'p'                       ? "a_par.txt"
+                                          : nullptr)
+  {
+    PutFile(name, parts.back());
+    Use(ReadSparseModel(FuzzFolder() + "/" + name));
   }
   else
   {
@@ -87,7 +98,8 @@ void EnterScene(std::string_view bytes)
   // What is read can be written, and is the same when it is read again.
   WriteScene(scene, FuzzFolder() + "/again.json");
   const Scene again = ReadScene(FuzzFolder() + "/again.json");
-  if (again.clusters.size() != scene.clusters.size() || again.board.has_value() != scene.board.has_value())
+  if (again.clusters.size() != scene.clusters.size() ||
+    again.board.has_value() != scene.board.has_value())
   {
     throw std::logic_error("A scene is another one when it is written and read again.");
   }

@@ -83,8 +83,7 @@ TEST(DepthFeatures, RangesAreDistancesFromTheCentre)
   const CalibratedImage image = ImageOf(SmallCamera());
   DepthOptions options = EachPixel();
   options.isRange = true;
-  const View view =
-    FeaturesOfDepthMap(image, MapOf(40, 30, [](int, int) { return 3; }), options);
+  const View view = FeaturesOfDepthMap(image, MapOf(40, 30, [](int, int) { return 3; }), options);
   for (const Eigen::Vector3d& point : view.points)
   {
     EXPECT_NEAR((point - image.camera.Center()).norm(), 3, 1e-12);
