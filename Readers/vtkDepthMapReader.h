@@ -52,6 +52,10 @@ public:
       this->Modified();
     }
   }
+  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
+  {
+    this->SetFileName(std::string(fileName ? fileName : ""));
+  }
   vtkGetMacro(FileName, std::string);
   ///@}
 
