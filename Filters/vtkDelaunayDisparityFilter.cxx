@@ -30,8 +30,10 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
   this->MinimumDisparity = disparity.minimumDisparity;
   this->Tolerance = disparity.tolerance;
   this->KeepEdges = disparity.keepEdges;
+  this->PartnerViews = disparity.partners.most;
   const freespace::BackgroundContinuationOptions background;
   this->ContinueBackground = true;
+  this->BackgroundViews = background.partners.most;
   this->GrazingAngle = background.grazingAngle;
   this->RefutingViews = background.views;
   const freespace::OutlierRejectionOptions outliers;
@@ -61,6 +63,8 @@ int vtkDelaunayDisparityFilter::RequestData(
   freespace::BackgroundContinuationOptions background;
   background.grazingAngle = this->GrazingAngle;
   background.views = this->RefutingViews;
+  options.partners.most = this->PartnerViews;
+  background.partners.most = this->BackgroundViews;
   freespace::OutlierRejectionOptions outliers;
   outliers.neighbors = this->SupportingNeighbors;
   outliers.seeThroughViews = this->SeeThroughViews;
@@ -132,7 +136,9 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";
+  os << indent << "PartnerViews: " << this->PartnerViews << "\n";
   os << indent << "ContinueBackground: " << this->ContinueBackground << "\n";
+  os << indent << "BackgroundViews: " << this->BackgroundViews << "\n";
   os << indent << "GrazingAngle: " << this->GrazingAngle << "\n";
   os << indent << "RefutingViews: " << this->RefutingViews << "\n";
   os << indent << "SupportingNeighbors: " << this->SupportingNeighbors << "\n";

@@ -98,12 +98,31 @@ public:
 
   ///@{
   /**
+   * Number of other views whose features can be inserted into a view: half of them the next ones, the rest
+   * spread over the others, so that the time grows with the number of views and not with its square. Features
+   * that several views share are inserted in any case. 0, the paper, is no limit. Default 40.
+   */
+  vtkSetMacro(PartnerViews, int);
+  vtkGetMacro(PartnerViews, int);
+  ///@}
+
+  ///@{
+  /**
    * Whether the background is continued behind bridges that other views refute. Off in the paper.
    * Default on.
    */
   vtkSetMacro(ContinueBackground, vtkTypeBool);
   vtkGetMacro(ContinueBackground, vtkTypeBool);
   vtkBooleanMacro(ContinueBackground, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Number of other views, chosen in the same way, that can refute a bridge and tell what is behind it. 0 is no
+   * limit. Default 16.
+   */
+  vtkSetMacro(BackgroundViews, int);
+  vtkGetMacro(BackgroundViews, int);
   ///@}
 
   ///@{
@@ -190,7 +209,9 @@ protected:
   vtkTypeBool MinimumDisparity;
   double Tolerance;
   vtkTypeBool KeepEdges;
+  int PartnerViews;
   vtkTypeBool ContinueBackground;
+  int BackgroundViews;
   double GrazingAngle;
   int RefutingViews;
   int SupportingNeighbors;

@@ -61,7 +61,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> ViewsOf(vtkDataObject* data)
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
   if (data && !blocks)
   {
-    throw Error(std::string("Views are a vtkMultiBlockDataSet, and not a ") + data->GetClassName() + ".");
+    throw Error(
+      std::string("Views are a vtkMultiBlockDataSet, and not a ") + data->GetClassName() + ".");
   }
   return blocks;
 }

@@ -20,8 +20,9 @@ inline void RefuseGhosts(vtkInformation* output)
   if (get(Pipeline::UPDATE_NUMBER_OF_PIECES()) > 1 &&
     get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0)
   {
-    throw Error("Pieces of the surface have no ghost levels: ask for none, and append the pieces with "
-                "vtkAppendPiecesFilter before what needs the neighbors.");
+    throw Error(
+      "Pieces of the surface have no ghost levels: ask for none, and append the pieces with "
+      "vtkAppendPiecesFilter before what needs the neighbors.");
   }
 }
 

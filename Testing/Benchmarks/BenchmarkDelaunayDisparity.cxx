@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What the minimum disparity constraint costs: the disparity map of a view over one CGAL Delaunay
-// triangulation of the points that the map has in the end, and how both grow with their number.
+// triangulation of the points that the map has in the end, and how both grow with their number. How the maps of
+// all views of a ring, with the constraint and the background, grow with the number of views.
 //
 //   BenchmarkDelaunayDisparity [--benchmark_filter=...]
 
+#include "Disparity/Background/BackgroundContinuation.h"
 #include "Disparity/DelaunayDisparity.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -120,6 +122,62 @@ BENCHMARK(AllAreInserted)
   ->Arg(10000)
   ->Arg(100000)
   ->Arg(1000000)
+  ->UseManualTime()
+  ->Unit(benchmark::kMillisecond);
+
+// A ring of views around a ball with bumps, each with as many features, which noise lifts a little.
+std::vector<View> RingOfViews(int count, int features)
+{
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal, noise(0, 2e-4);
+  std::vector<View> views;
+  for (int v = 0; v < count; ++v)
+  {
+    View& view = views.emplace_back();
+    view.camera.K << 1000, 0, 400, 0, 1000, 400, 0, 0, 1;
+    view.camera.width = view.camera.height = 800;
+    view.camera.R = Eigen::AngleAxisd(2 * M_PI * v / count, Eigen::Vector3d::UnitY()).matrix();
+    view.camera.t = { 0, 0, 4 };
+    const Eigen::Vector3d eye = view.camera.Center();
+    while (view.points.size() < static_cast<std::size_t>(features))
+    {
+      const Eigen::Vector3d n =
+        Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+      const double bump = std::sin(9 * n.x()) * std::sin(9 * n.y()) * std::sin(9 * n.z());
+      const Eigen::Vector3d point = (1 + 0.05 * bump + noise(random)) * n;
+      if (n.dot(eye - point) > 1)
+      {
+        view.points.push_back(point);
+        view.imagePoints.push_back(view.camera.Project(point));
+      }
+    }
+  }
+  return views;
+}
+
+void ViewsOfARing(benchmark::State& state)
+{
+  const int count = static_cast<int>(state.range(0));
+  const std::vector<View> views = RingOfViews(count, 2000);
+  double time = 0;
+  for (auto _ : state)
+  {
+    const double begin = Seconds();
+    const FeatureCloud cloud(views);
+    std::vector<DisparityMap> maps = TriangulateViews(views, cloud, {});
+    ContinueBackground(maps, cloud, {});
+    benchmark::DoNotOptimize(maps.data());
+    time += Seconds() - begin;
+    state.SetIterationTime(Seconds() - begin);
+  }
+  Times["a ring has n views"][count] = time / state.iterations();
+}
+BENCHMARK(ViewsOfARing)
+  ->Arg(30)
+  ->Arg(100)
+  ->Arg(300)
+  ->Arg(1000)
+  ->Iterations(1)
   ->UseManualTime()
   ->Unit(benchmark::kMillisecond);
 

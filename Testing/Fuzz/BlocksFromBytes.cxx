@@ -45,8 +45,9 @@ public:
   /// Mostly near to the given one.
   double Number(double usual)
   {
-    static const double odd[] = { 0.0, -1.0, 1e-300, 1e40, -1e300, std::numeric_limits<double>::infinity(),
-      std::numeric_limits<double>::quiet_NaN(), 1e6, -0.5, 1e-9, 5e8, 2147483648.0, -1e19, 0.5, 640.0, 3.0 };
+    static const double odd[] = { 0.0, -1.0, 1e-300, 1e40, -1e300,
+      std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 1e6, -0.5,
+      1e-9, 5e8, 2147483648.0, -1e19, 0.5, 640.0, 3.0 };
     const int byte = this->Byte();
     return byte == 0 ? usual : byte < 240 ? usual + (byte - 120) * 0.01 : odd[byte - 240];
   }
@@ -81,7 +82,9 @@ vtkSmartPointer<vtkDataArray> MakeArray(
   array->SetName(name);
   // One wide tuple, single numbers, one tuple less, or as it should be.
   array->SetNumberOfComponents(change == 6 ? std::max(1, int(size)) : change == 7 ? 1 : components);
-  array->SetNumberOfTuples(change == 6 ? 1 : change == 7 ? size : size / components - (change == 8 ? 1 : 0));
+  array->SetNumberOfTuples(change == 6 ? 1
+      : change == 7                    ? size
+                                       : size / components - (change == 8 ? 1 : 0));
   for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
   {
     const double value = source.Number(values[static_cast<std::size_t>(i)]);
@@ -122,8 +125,10 @@ void AddArrays(Source& source, vtkPolyData* block)
   vtkFieldData* field = block->GetFieldData();
   add(block->GetPointData(), MakeArray(source, "ImagePoint", 2, pixels, false));
   add(block->GetPointData(), MakeArray(source, "SourceView", 1, views, true));
-  add(field, MakeArray(source, "CameraIntrinsics", 9, { 500, 0, 320, 0, 500, 240, 0, 0, 1 }, false));
-  add(field, MakeArray(source, "CameraFromWorld", 12, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 }, false));
+  add(
+    field, MakeArray(source, "CameraIntrinsics", 9, { 500, 0, 320, 0, 500, 240, 0, 0, 1 }, false));
+  add(
+    field, MakeArray(source, "CameraFromWorld", 12, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 }, false));
   add(field, MakeArray(source, "ImageSize", 2, { 640, 480 }, true));
   vtkNew<vtkStringArray> file;
   file->SetName("ImageFile");

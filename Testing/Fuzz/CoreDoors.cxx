@@ -147,7 +147,8 @@ void EnterSurfaces(std::string_view bytes)
       throw std::logic_error("A surface has a corner that is no point of it.");
     }
   }
-  if (!surface.ends.empty() && surface.ends.back() != static_cast<std::int64_t>(surface.corners.size()))
+  if (!surface.ends.empty() &&
+    surface.ends.back() != static_cast<std::int64_t>(surface.corners.size()))
   {
     throw std::logic_error("A surface has corners of no polygon.");
   }

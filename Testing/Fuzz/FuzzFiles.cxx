@@ -20,8 +20,8 @@ class ProcessFolder
 public:
   ProcessFolder()
   {
-    std::string name =
-      (fs::is_directory("/dev/shm") ? std::string("/dev/shm") : fs::temp_directory_path().string()) +
+    std::string name = (fs::is_directory("/dev/shm") ? std::string("/dev/shm")
+                                                     : fs::temp_directory_path().string()) +
       "/freespace-fuzz-XXXXXX";
     if (!mkdtemp(name.data()))
     {

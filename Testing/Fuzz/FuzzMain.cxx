@@ -83,8 +83,7 @@ int main(int argc, char* argv[])
     std::ifstream stream(file, std::ios::binary);
     const std::string content((std::istreambuf_iterator<char>(stream)), {});
     std::cout << file.string() << std::endl;
-    LLVMFuzzerTestOneInput(
-      reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
   }
   std::cout << files.size() << " inputs" << std::endl;
   return files.empty() ? 1 : 0;

@@ -17,6 +17,7 @@ void DelaunayDisparityOptions::Check() const
   {
     throw Error("The tolerance of the minimum disparity constraint must not be negative.");
   }
+  this->partners.Check();
 }
 
 namespace
@@ -54,14 +55,20 @@ std::vector<std::array<int, 2>> SightedEdges(const View& view, const std::vector
   return edges;
 }
 
+// Where points of other views come from.
+struct OtherFeatures
+{
+  const FeatureCloud& cloud;
+  const std::vector<int>& partners; // views
+};
+
 // The other views' features that are visible in a view.
 std::vector<SightedFeature> FeaturesOfOthers(
-  const Camera& camera, int index, const FeatureCloud& cloud, const CancellationFlag& stop)
+  const Camera& camera, int index, const OtherFeatures& features, const CancellationFlag& stop)
 {
   std::vector<SightedFeature> others;
-  others.reserve(cloud.Size());
   SightedFeature sighting;
-  cloud.VisitSeen(camera,
+  features.cloud.VisitSeen(camera, features.partners,
     [&](const FeatureCloud::Feature& feature)
     {
       ThrowIfCancelled(stop);
@@ -75,7 +82,7 @@ std::vector<SightedFeature> FeaturesOfOthers(
 }
 
 template <typename Triangulation>
-DisparityMap TriangulateWith(const View& view, int index, const FeatureCloud& cloud,
+DisparityMap TriangulateWith(const View& view, int index, const OtherFeatures& features,
   const DelaunayDisparityOptions& options, const CancellationFlag& stop)
 {
   std::vector<SightedPoint> own;
@@ -98,7 +105,7 @@ DisparityMap TriangulateWith(const View& view, int index, const FeatureCloud& cl
   surface.KeepEdges(SightedEdges(view, sighted));
   if (options.minimumDisparity)
   {
-    surface.AddCandidates(FeaturesOfOthers(view.camera, index, cloud, stop), stop);
+    surface.AddCandidates(FeaturesOfOthers(view.camera, index, features, stop), stop);
     surface.EnforceMinimumDisparity(options.tolerance, stop);
   }
   DisparityMap map;
@@ -109,12 +116,12 @@ DisparityMap TriangulateWith(const View& view, int index, const FeatureCloud& cl
   return map;
 }
 
-DisparityMap TriangulateOne(const View& view, int index, const FeatureCloud& cloud,
+DisparityMap TriangulateOne(const View& view, int index, const OtherFeatures& features,
   const DelaunayDisparityOptions& options, const CancellationFlag& stop)
 {
   return options.keepEdges && !view.edges.empty()
-    ? TriangulateWith<ConstrainedTriangulation>(view, index, cloud, options, stop)
-    : TriangulateWith<PlainTriangulation>(view, index, cloud, options, stop);
+    ? TriangulateWith<ConstrainedTriangulation>(view, index, features, options, stop)
+    : TriangulateWith<PlainTriangulation>(view, index, features, options, stop);
 }
 
 }
@@ -123,8 +130,9 @@ DisparityMap TriangulateView(
   const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
 {
   options.Check();
-  return TriangulateOne(
-    views[index], static_cast<int>(index), FeatureCloud(views), options, NeverCancelled);
+  const FeatureCloud cloud(views);
+  return TriangulateOne(views[index], static_cast<int>(index),
+    { cloud, PartnerViews(views, options.partners)[index] }, options, NeverCancelled);
 }
 
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
@@ -135,10 +143,14 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   std::vector<double> work;
   std::transform(views.begin(), views.end(), std::back_inserter(work),
     [](const View& view) { return static_cast<double>(view.points.size()); });
+  const std::vector<std::vector<int>> partners = PartnerViews(views, options.partners);
   std::vector<DisparityMap> maps(views.size());
   ParallelForWithProgress(work, parallelFor, progress,
     [&](std::size_t v, const CancellationFlag& stop)
-    { maps[v] = TriangulateOne(views[v], static_cast<int>(v), cloud, options, stop); });
+    {
+      maps[v] =
+        TriangulateOne(views[v], static_cast<int>(v), { cloud, partners[v] }, options, stop);
+    });
   return maps;
 }
 

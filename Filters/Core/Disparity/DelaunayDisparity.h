@@ -7,6 +7,7 @@
 #include "Common/Progress.h"
 #include "Common/View.h"
 #include "Disparity/FeatureCloud.h"
+#include "Disparity/PartnerViews.h"
 
 namespace freespace
 {
@@ -28,6 +29,9 @@ struct DelaunayDisparityOptions
   /// Delaunay triangulation), so that no triangle crosses an edge that the stereo found. Edges that
   /// intersect others are skipped.
   bool keepEdges = false;
+
+  /// The views whose points can be inserted into a view's surface.
+  PartnerViewsOptions partners{ 40 };
 
   /// Throws Error when a field is out of its range.
   void Check() const;

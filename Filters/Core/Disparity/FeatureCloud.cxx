@@ -12,7 +12,7 @@ namespace freespace
 namespace
 {
 
-constexpr std::size_t pointsPerBox = 256;
+constexpr std::size_t pointsPerBox = 64;
 
 // Points that occurred before, identified by their coordinates.
 class PointSet
@@ -28,8 +28,8 @@ public:
     this->Slots.assign(size, empty);
   }
 
-  // Whether the last of the features is new.
-  bool Insert(const std::vector<FeatureCloud::Feature>& features)
+  // The index of the feature that has the point of the last one: its own where that is new.
+  std::size_t Insert(const std::vector<FeatureCloud::Feature>& features)
   {
     const Eigen::Vector3d& point = features.back().point;
     std::size_t slot = Hash(point) & (this->Slots.size() - 1);
@@ -37,12 +37,12 @@ public:
     {
       if (features[this->Slots[slot]].point == point)
       {
-        return false;
+        return this->Slots[slot];
       }
       slot = (slot + 1) & (this->Slots.size() - 1);
     }
     this->Slots[slot] = features.size() - 1;
-    return true;
+    return features.size() - 1;
   }
 
 private:
@@ -75,22 +75,55 @@ FeatureCloud::FeatureCloud(const std::vector<View>& views, const CancellationFla
     count += view.points.size();
   }
   PointSet known(count);
+  std::vector<char> isShared;
   for (std::size_t v = 0; v < views.size(); ++v)
   {
     for (const Eigen::Vector3d& point : views[v].points)
     {
       ThrowIfCancelled(stop);
-      if (point.allFinite())
+      if (!point.allFinite())
       {
-        this->Features.push_back({ point, static_cast<int>(v) });
-        if (!known.Insert(this->Features))
-        {
-          this->Features.pop_back();
-        }
+        continue;
+      }
+      this->Features.push_back({ point, static_cast<int>(v) });
+      isShared.push_back(0);
+      const std::size_t place = known.Insert(this->Features);
+      if (place + 1 < this->Features.size())
+      {
+        isShared[place] |= this->Features[place].sourceView != static_cast<int>(v);
+        this->Features.pop_back();
+        isShared.pop_back();
       }
     }
   }
-  this->Split(0, this->Features.size(), stop);
+  this->MoveBack(isShared);
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v <= views.size(); ++v)
+  {
+    this->FirstBox.push_back(this->Boxes.size());
+    std::size_t end = v < views.size() ? begin : this->Features.size();
+    while (v < views.size() && end < this->OwnFeatures &&
+      this->Features[end].sourceView == static_cast<int>(v))
+    {
+      ++end;
+    }
+    this->Split(begin, end, stop);
+    begin = end;
+  }
+}
+
+// Moves the features that several views share behind the others.
+void FeatureCloud::MoveBack(const std::vector<char>& isShared)
+{
+  std::vector<Feature> own, shared;
+  own.reserve(this->Features.size());
+  for (std::size_t i = 0; i < this->Features.size(); ++i)
+  {
+    (isShared[i] ? shared : own).push_back(this->Features[i]);
+  }
+  this->OwnFeatures = own.size();
+  own.insert(own.end(), shared.begin(), shared.end());
+  this->Features = std::move(own);
 }
 
 // Halves the longest side of the points' box until few are left.

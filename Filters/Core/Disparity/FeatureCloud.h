@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// The distinct features of many views, in boxes of points that are near to each other, so that what a
+/// The distinct features of many views, in boxes of points of one view that are near to each other, so that what a
 /// camera cannot see is passed over by the box. Views that come from structure from motion share their
 /// points: with a thousand views every point would otherwise be processed a thousand times for each view.
 class FeatureCloud
@@ -33,17 +33,19 @@ public:
   template <typename Visitor>
   void VisitSeen(const Camera& camera, Visitor&& visit) const
   {
-    const Frustum frustum(camera);
-    for (const Box& box : this->Boxes)
+    this->VisitBoxes(camera, 0, this->Boxes.size(), visit);
+  }
+
+  /// The same for the features of some views alone, and those that several views share.
+  template <typename Visitor>
+  void VisitSeen(const Camera& camera, const std::vector<int>& views, Visitor&& visit) const
+  {
+    for (const int view : views)
     {
-      if (frustum.MayContain(box))
-      {
-        for (std::size_t i = box.begin; i < box.end; ++i)
-        {
-          visit(this->Features[i]);
-        }
-      }
+      const std::size_t v = static_cast<std::size_t>(view);
+      this->VisitBoxes(camera, this->FirstBox[v], this->FirstBox[v + 1], visit);
     }
+    this->VisitBoxes(camera, this->FirstBox.back(), this->Boxes.size(), visit);
   }
 
 private:
@@ -66,10 +68,30 @@ private:
     std::array<Eigen::Vector4d, 5> Planes; // inside where the product is positive
   };
 
+  template <typename Visitor>
+  void VisitBoxes(const Camera& camera, std::size_t first, std::size_t last, Visitor&& visit) const
+  {
+    const Frustum frustum(camera);
+    for (std::size_t b = first; b < last; ++b)
+    {
+      const Box& box = this->Boxes[b];
+      if (frustum.MayContain(box))
+      {
+        for (std::size_t i = box.begin; i < box.end; ++i)
+        {
+          visit(this->Features[i]);
+        }
+      }
+    }
+  }
+
+  void MoveBack(const std::vector<char>& isShared);
   void Split(std::size_t begin, std::size_t end, const CancellationFlag& stop);
 
-  std::vector<Feature> Features;
-  std::vector<Box> Boxes;
+  std::vector<Feature> Features;     // by view; those that several share last
+  std::size_t OwnFeatures = 0;       // of one view
+  std::vector<Box> Boxes;            // the same
+  std::vector<std::size_t> FirstBox; // of each view, and of what several share
 };
 
 }

@@ -29,7 +29,9 @@ double WhiteOf(double greatest, bool isReal)
   {
     return eight;
   }
-  return greatest <= twelve ? twelve : greatest <= fourteen ? fourteen : std::max(greatest, sixteen);
+  return greatest <= twelve ? twelve
+    : greatest <= fourteen  ? fourteen
+                            : std::max(greatest, sixteen);
 }
 
 // OpenCV converts the channels of a TIFF of floating point wrongly or not at all.

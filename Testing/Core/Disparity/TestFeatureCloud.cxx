@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 
 using namespace freespace;
 
@@ -108,6 +109,32 @@ TEST(FeatureCloud, NothingThatIsSeenIsPassedOver)
     }
   }
   EXPECT_LT(visited, 40 * cloud.Size() / 2) << "boxes were not passed over";
+}
+
+TEST(FeatureCloud, OfSomeViewsAndWhatIsShared)
+{
+  const std::vector<View> views = RandomViews(6, 1500);
+  std::map<Key, std::set<int>> expected;
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    for (const Eigen::Vector3d& point : views[v].points)
+    {
+      expected[KeyOf(point)].insert(static_cast<int>(v));
+    }
+  }
+  Camera camera;
+  camera.K << 1, 0, 200, 0, 1, 200, 0, 0, 1;
+  camera.width = camera.height = 400;
+  camera.t = { 0, 0, 100 };
+  std::set<Key> found;
+  FeatureCloud(views).VisitSeen(camera, { 1, 4 },
+    [&](const FeatureCloud::Feature& feature)
+    { EXPECT_TRUE(found.insert(KeyOf(feature.point)).second) << "twice"; });
+  for (const auto& [point, of] : expected)
+  {
+    const bool isWanted = of.size() > 1 || of.count(1) > 0 || of.count(4) > 0;
+    EXPECT_EQ(found.count(point), isWanted ? 1u : 0u);
+  }
 }
 
 TEST(FeatureCloud, EmptyOnePointAndNaN)

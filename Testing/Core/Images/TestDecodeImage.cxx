@@ -82,8 +82,8 @@ TEST(DecodeImage, FilesOfEachDepth)
   const std::vector<int> exact = { cv::IMWRITE_TIFF_COMPRESSION, 1 }; // none
   const std::pair<const char*, cv::Mat> files[] = { { "8.png", Ramp(CV_8U, 1) },
     { "12.png", Ramp(CV_16U, 4095 / 255.0) }, { "12.tif", Ramp(CV_16U, 4095 / 255.0) },
-    { "16.png", Ramp(CV_16U, 257) }, { "16.tif", Ramp(CV_16U, 257) },
-    { "8.tif", Ramp(CV_8U, 1) }, { "float.tif", Ramp(CV_32F, 1 / 255.0) } };
+    { "16.png", Ramp(CV_16U, 257) }, { "16.tif", Ramp(CV_16U, 257) }, { "8.tif", Ramp(CV_8U, 1) },
+    { "float.tif", Ramp(CV_32F, 1 / 255.0) } };
   for (const auto& [name, image] : files)
   {
     ASSERT_TRUE(cv::imwrite(folder.Path(name), image, exact)) << name;

@@ -58,6 +58,12 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Disparity maps");
   command
+    .add_option("--partner-views", this->PartnerViews,
+      "Number of other views whose features can be inserted into a view; 0: all")
+    ->check(CLI::Range(0, 1000000))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--neighbors", this->SupportingNeighbors,
       "Minimum number of the six nearest features with a similar depth; a feature with fewer is an "
       "outlier; 0 keeps all")
@@ -99,6 +105,12 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->check(CLI::IsMember({ "auto", "on", "off" }))
     ->capture_default_str()
     ->group("Disparity maps");
+  command
+    .add_option("--background-views", this->BackgroundViews,
+      "Number of other views that tell where the background continues; 0: all")
+    ->check(CLI::Range(0, 1000000))
+    ->capture_default_str()
+    ->group("Disparity maps");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
@@ -112,6 +124,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputConnection(support->GetOutputPort());
   maps->SetFeatureSpacing(this->FeatureSpacing);
+  maps->SetPartnerViews(this->PartnerViews);
   maps->SetTolerance(this->Tolerance);
   maps->SetSupportingNeighbors(this->SupportingNeighbors);
   maps->SetSeeThroughViews(this->SeeThroughViews);
@@ -119,6 +132,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetLongestEdge(this->LongestEdge);
   maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
   maps->SetKeepEdges(this->KeepEdges);
+  maps->SetBackgroundViews(this->BackgroundViews);
   maps->SetContinueBackground(
     this->Background == "on" || (this->Background == "auto" && !AreIsolated(features)));
   session.Run(maps, "triangulate");

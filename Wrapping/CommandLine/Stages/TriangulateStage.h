@@ -2,6 +2,7 @@
 #ifndef freespace_TriangulateStage_h
 #define freespace_TriangulateStage_h
 
+#include "Disparity/Background/BackgroundContinuation.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/FeatureSupport.h"
 #include "Disparity/FeatureThinning.h"
@@ -35,6 +36,8 @@ private:
   int SupportNeighbors = FeatureSupportOptions().minimumNeighbors;
   double FeatureSpacing = FeatureThinningOptions().spacing;
   double Tolerance = DelaunayDisparityOptions().tolerance;
+  int PartnerViews = DelaunayDisparityOptions().partners.most;
+  int BackgroundViews = BackgroundContinuationOptions().partners.most;
   int SupportingNeighbors = OutlierRejectionOptions().neighbors;
   int SeeThroughViews = OutlierRejectionOptions().seeThroughViews;
   int ViolatingFeatures = OutlierRejectionOptions().violatingFeatures;

@@ -47,7 +47,8 @@ public:
   {
   }
 
-  DisparityMap Continue(const FeatureCloud& cloud, const CancellationFlag& stop);
+  DisparityMap Continue(
+    const FeatureCloud& cloud, const std::vector<int>& partners, const CancellationFlag& stop);
 
 private:
   struct SetBackBridge
@@ -57,8 +58,8 @@ private:
   };
 
   std::vector<SetBackBridge> RefutedBridges(const CancellationFlag& stop);
-  std::vector<std::vector<Vector3d>> PointsInBridges(
-    const FeatureCloud& cloud, const CancellationFlag& stop) const;
+  std::vector<std::vector<Vector3d>> PointsInBridges(const FeatureCloud& cloud,
+    const std::vector<int>& partners, const CancellationFlag& stop) const;
   double MiddleOfJump(std::size_t triangle) const;
   bool IsRefuted(std::size_t triangle) const;
   bool IsSeenThrough(const Vector3d& place) const;
@@ -114,10 +115,11 @@ bool BackgroundContinuer::IsRefuted(std::size_t triangle) const
 bool BackgroundContinuer::IsSeenThrough(const Vector3d& place) const
 {
   int views = 0;
-  for (const BridgedMap* other : this->OtherMaps)
+  for (std::size_t i = 0; i < this->OtherMaps.size() && views < this->Options.views; ++i)
   {
-    const ViewFreespace::Sample sample = other->freespace.At(place);
-    const double depth = other->map.camera.Depth(place);
+    const BridgedMap& other = *this->OtherMaps[i];
+    const ViewFreespace::Sample sample = other.freespace.At(place);
+    const double depth = other.map.camera.Depth(place);
     views += sample.triangle >= 0 && sample.value > SeeThrough * this->Options.noise * depth;
   }
   return views >= this->Options.views;
@@ -339,13 +341,13 @@ std::vector<BackgroundContinuer::SetBackBridge> BackgroundContinuer::RefutedBrid
   return refuted;
 }
 
-// The features of all views that project into bridges, by triangle.
+// The features of views that project into bridges, by triangle.
 std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
-  const FeatureCloud& cloud, const CancellationFlag& stop) const
+  const FeatureCloud& cloud, const std::vector<int>& partners, const CancellationFlag& stop) const
 {
   std::vector<std::vector<Vector3d>> points(this->Own.map.triangles.size());
   const BridgeMask mask(this->Own);
-  cloud.VisitSeen(this->Own.map.camera,
+  cloud.VisitSeen(this->Own.map.camera, partners,
     [&](const FeatureCloud::Feature& feature)
     {
       ThrowIfCancelled(stop);
@@ -361,12 +363,13 @@ std::vector<std::vector<Vector3d>> BackgroundContinuer::PointsInBridges(
   return points;
 }
 
-DisparityMap BackgroundContinuer::Continue(const FeatureCloud& cloud, const CancellationFlag& stop)
+DisparityMap BackgroundContinuer::Continue(
+  const FeatureCloud& cloud, const std::vector<int>& partners, const CancellationFlag& stop)
 {
   DisparityMap map = this->Own.map;
   std::vector<double> disparity = this->Own.disparity;
   std::vector<std::vector<int>> setBack(map.points.size()); // background points of each point
-  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud, stop);
+  const std::vector<std::vector<Vector3d>> points = this->PointsInBridges(cloud, partners, stop);
   for (const SetBackBridge& bridge : this->RefutedBridges(stop))
   {
     ThrowIfCancelled(stop);
@@ -430,6 +433,7 @@ void BackgroundContinuationOptions::Check() const
   {
     throw Error("The width of edges must not be negative.");
   }
+  this->partners.Check();
 }
 
 void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& cloud,
@@ -445,6 +449,7 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
     [&](std::size_t v, const CancellationFlag& stop)
     { bridged[v] = std::make_unique<BridgedMap>(maps[v], options, stop); });
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
+  const std::vector<std::vector<int>> partners = PartnerViews(maps, options.partners);
   std::vector<DisparityMap> continued(maps.size());
   ParallelForWithProgress(work, parallelFor, progress.Part(0.4, 1.0),
     [&](std::size_t v, const CancellationFlag& stop)
@@ -452,10 +457,16 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
       BackgroundContinuer::Others others;
       for (int other : overlapping[v])
       {
-        others.push_back(bridged[other].get());
+        if (std::binary_search(partners[v].begin(), partners[v].end(), other))
+        {
+          others.push_back(bridged[other].get());
+        }
       }
+      std::vector<int> withOwn = partners[v];
+      withOwn.insert(
+        std::lower_bound(withOwn.begin(), withOwn.end(), static_cast<int>(v)), static_cast<int>(v));
       continued[v] =
-        BackgroundContinuer(*bridged[v], std::move(others), options).Continue(cloud, stop);
+        BackgroundContinuer(*bridged[v], std::move(others), options).Continue(cloud, withOwn, stop);
     });
   maps = std::move(continued);
 }

@@ -7,6 +7,7 @@
 #include "Common/Progress.h"
 #include "Common/View.h"
 #include "Disparity/FeatureCloud.h"
+#include "Disparity/PartnerViews.h"
 
 namespace freespace
 {
@@ -28,6 +29,9 @@ struct BackgroundContinuationOptions
   /// Points of other views within this distance of the near side of a bridge, pixels, belong to the
   /// occluding edge and are no evidence of matter behind it; >= 0.
   double edgeWidth = 1.0;
+
+  /// The views that can refute a bridge and tell what is behind it.
+  PartnerViewsOptions partners{ 16 };
 
   /// Throws Error when a field is out of its range.
   void Check() const;
