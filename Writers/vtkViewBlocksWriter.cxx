@@ -27,7 +27,7 @@ namespace
 
 // VTK numbers the files of the blocks from 0. Where such are there from a former run, the new ones get other
 // numbers, so that the .vtm refers to the old or to the new ones at any moment.
-void NumberParts(const freespace::AtomicOutput& target, const std::string& fileName)
+void NumberParts(freespace::AtomicOutput& target, const std::string& fileName)
 {
   namespace fs = std::filesystem;
   const std::string stem = fs::path(target.Path()).stem().string();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -243,6 +244,26 @@ AtomicOutput::AtomicOutput(const std::string& target)
   }
 }
 
+AtomicOutput::~AtomicOutput()
+{
+  if (this->Lock >= 0)
+  {
+    close(this->Lock);
+  }
+}
+
+void AtomicOutput::Hold()
+{
+  if (this->Lock < 0 && !this->IsStream)
+  {
+    this->Lock = open(ParentOf(this->Target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    while (this->Lock >= 0 && flock(this->Lock, LOCK_EX) != 0 && errno == EINTR)
+    {
+      // A signal came while it waited.
+    }
+  }
+}
+
 void AtomicOutput::Write(const void* bytes, std::size_t count) const
 {
   std::ofstream file(this->Path(), std::ios::binary);
@@ -303,6 +324,7 @@ void AtomicOutput::CommitFiles()
   {
     Sync(entry.path());
   }
+  this->Hold();
   const auto hold = HoldWorkFolders();
   Renames renames(this->Folder.Path());
   std::vector<fs::path> formerParts;
@@ -356,8 +378,9 @@ void AtomicOutput::Stream()
   }
 }
 
-int AtomicOutput::FirstFreePart(int parts) const
+int AtomicOutput::FirstFreePart(int parts)
 {
+  this->Hold();
   const std::vector<int> taken = PartNumbers(ParentOf(this->Target) / this->Target.stem());
   const bool isFree =
     std::all_of(taken.begin(), taken.end(), [parts](int number) { return number >= parts; });

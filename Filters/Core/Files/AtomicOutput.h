@@ -33,6 +33,12 @@ public:
   AtomicOutput(const AtomicOutput&) = delete;
   AtomicOutput& operator=(const AtomicOutput&) = delete;
 
+  ~AtomicOutput();
+
+  /// Lets no other process change outputs in the target's folder until this one is committed or destroyed;
+  /// waits for one that does. Where the file system has no locks, nothing is held.
+  void Hold();
+
   /// Where to write the target; other files may be written beside it.
   std::string Path() const { return (this->Folder.Path() / this->Target.filename()).string(); }
 
@@ -52,8 +58,9 @@ public:
   /// when that fails, and then everything is as it was.
   void Commit();
 
-  /// The number n from which on NAME_n.vtp, ... are not in the folder NAME of a NAME.vtm, for so many parts.
-  int FirstFreePart(int parts) const;
+  /// The number n from which on NAME_n.vtp, ... are not in the folder NAME of a NAME.vtm, for so many parts. It
+  /// holds, see Hold, until the commit.
+  int FirstFreePart(int parts);
 
 private:
   void CommitFiles();
@@ -62,6 +69,7 @@ private:
   std::filesystem::path Target;
   bool IsStream; ///< whether the target is no file, but takes bytes
   WorkFolder Folder;
+  int Lock = -1; ///< an open file, where the target's folder is held
 };
 
 }

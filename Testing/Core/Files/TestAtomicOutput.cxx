@@ -248,7 +248,7 @@ TEST(AtomicOutput, AFailedCommitLeavesAllAsItWas)
 TEST(AtomicOutput, FirstFreePart)
 {
   const TemporaryFolder folder;
-  const AtomicOutput output(folder.Path("maps.vtm"));
+  AtomicOutput output(folder.Path("maps.vtm"));
   EXPECT_EQ(output.FirstFreePart(3), 0);
   folder.Write("maps/maps_0.vtp", "");
   folder.Write("maps/maps_1.vtp", "");
