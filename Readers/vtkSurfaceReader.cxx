@@ -4,6 +4,7 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
+#include "Data/ObservedTriangles.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
 #include "Surface/SurfaceFile.h"
@@ -167,6 +168,7 @@ int vtkSurfaceReader::RequestData(
         "Cannot read " + this->FileName + ": it is truncated, or holds no surface.");
     }
     output->ShallowCopy(triangles->GetOutput());
+    freespace::DropRepeated(output);
   }
   catch (...)
   {

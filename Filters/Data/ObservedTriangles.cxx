@@ -14,6 +14,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace freespace
@@ -82,6 +86,74 @@ void KeepTriangles(vtkPolyData* surface, const std::vector<char>& isKept)
   KeepTuples(surface->GetCellData(), triangles);
 }
 
+// The corners of a triangle, the smallest first, with the triangle.
+struct Rotated
+{
+  std::array<vtkIdType, 3> corners;
+  vtkIdType triangle;
+
+  bool operator<(const Rotated& other) const
+  {
+    return std::tie(this->corners, this->triangle) < std::tie(other.corners, other.triangle);
+  }
+};
+
+// All triangles, those with the same smallest corner together.
+std::vector<Rotated> ByFirstCorner(vtkCellArray* cells, vtkIdType points)
+{
+  std::vector<Rotated> given(cells->GetNumberOfCells());
+  std::vector<std::size_t> begin(points + 1, 0);
+  for (vtkIdType t = 0; t < cells->GetNumberOfCells(); ++t)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    cells->GetCellAtId(t, size, ids);
+    Rotated& rotated = given[t];
+    rotated = { { ids[0], ids[1], ids[2] }, t };
+    std::rotate(rotated.corners.begin(),
+      std::min_element(rotated.corners.begin(), rotated.corners.end()), rotated.corners.end());
+    ++begin[rotated.corners[0] + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Rotated> ordered(given.size());
+  for (const Rotated& rotated : given)
+  {
+    ordered[begin[rotated.corners[0]]++] = rotated;
+  }
+  return ordered;
+}
+
+}
+
+void DropRepeated(vtkPolyData* surface)
+{
+  std::vector<Rotated> triangles = ByFirstCorner(surface->GetPolys(), surface->GetNumberOfPoints());
+  std::vector<char> isKept(triangles.size(), 1);
+  bool areAllKept = true;
+  for (auto begin = triangles.begin(); begin != triangles.end();)
+  {
+    const auto end = std::find_if(begin, triangles.end(),
+      [&begin](const Rotated& other) { return other.corners[0] != begin->corners[0]; });
+    std::sort(begin, end);
+    for (auto it = begin + 1; it < end; ++it)
+    {
+      if (it->corners == (it - 1)->corners)
+      {
+        isKept[it->triangle] = 0;
+        areAllKept = false;
+      }
+    }
+    begin = end;
+  }
+  if (!areAllKept)
+  {
+    const std::string scalars =
+      surface->GetPointData()->GetScalars() && surface->GetPointData()->GetScalars()->GetName()
+      ? surface->GetPointData()->GetScalars()->GetName()
+      : "";
+    KeepTriangles(surface, isKept);
+    surface->GetPointData()->SetActiveScalars(scalars.c_str());
+  }
 }
 
 void KeepObserved(vtkPolyData* surface)

@@ -24,6 +24,10 @@ extern VTKFREESPACEFILTERS_EXPORT const char* const SupportedName;
 /// without a Kind is unchanged.
 VTKFREESPACEFILTERS_EXPORT void KeepObserved(vtkPolyData* surface);
 
+/// Drops triangles that have the same corners in the same order of rotation as an earlier one. They add nothing,
+/// and neighbors by edges would be sought among all of them.
+VTKFREESPACEFILTERS_EXPORT void DropRepeated(vtkPolyData* surface);
+
 /// Drops the connected components of a contour without a triangle that is close to a feature, except the
 /// largest one. A surface without that array is unchanged.
 VTKFREESPACEFILTERS_EXPORT void DropCrumbs(vtkPolyData* surface);

@@ -149,6 +149,35 @@ class TestErrorCodes(unittest.TestCase):
         self.assertEqual((overlay.GetImagesFolder(), overlay.GetOutputFolder(), proposal.GetModel()), ('', '', ''))
 
 
+class TestRepeatedTriangles(unittest.TestCase):
+    """A surface file with a triangle many times gives it once, and quickly."""
+
+    def read(self, triangles):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'a.ply')
+            with open(file, 'w') as ply:
+                ply.write('ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n'
+                          'property uchar red\nproperty uchar green\nproperty uchar blue\n'
+                          f'element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n'
+                          '0 0 0 1 1 1\n1 0 0 2 2 2\n0 1 0 3 3 3\n0 0 1 4 4 4\n9 9 9 5 5 5\n')
+                ply.writelines(f'3 {a} {b} {c}\n' for a, b, c in triangles)
+            return freespace.update(freespace.vtkSurfaceReader(file_name=file))
+
+    def test_each_is_there_once(self):
+        surface = self.read([(0, 1, 2), (1, 2, 0), (0, 1, 3), (2, 0, 1), (0, 2, 1), (0, 1, 3)])
+        self.assertEqual(freespace.surface_arrays(surface)[1].tolist(), [[0, 1, 2], [0, 1, 3], [0, 2, 1]])
+        colors = surface.GetPointData().GetScalars()
+        self.assertEqual([colors.GetTuple(i)[0] for i in range(4)], [1, 2, 3, 4])
+
+    def test_a_surface_without_any_stays_as_it_is(self):
+        surface = self.read([(1, 2, 0), (3, 0, 1)])
+        self.assertEqual(freespace.surface_arrays(surface)[1].tolist(), [[1, 2, 0], [3, 0, 1]])
+        self.assertEqual(surface.GetNumberOfPoints(), 5)
+
+    def test_many(self):
+        self.assertEqual(self.read([(0, 1, 2)] * 200000).GetNumberOfCells(), 1)
+
+
 class TestCollections(unittest.TestCase):
     """A vtkPartitionedDataSetCollection does wherever a vtkMultiBlockDataSet does."""
 
