@@ -5,6 +5,7 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
+#include "Data/SurfaceMesh.h"
 #include "PhotographBlocks.h"
 #include "Texture/TextureAtlas.h"
 

@@ -2,6 +2,7 @@
 #include "vtkViewDependentTextureMapper.h"
 
 #include "Common/Error.h"
+#include "Data/SurfaceMesh.h"
 #include "PhotographBlocks.h"
 #include "SurfaceGeometry.h"
 #include "ViewDependent/GeometryBuffer.h"

@@ -64,6 +64,10 @@ std::string PlyHeader::Text() const
   {
     text += "property " + type + " " + axis + "\n";
   }
+  for (const char* axis : { "nx", "ny", "nz" })
+  {
+    text += this->hasNormals ? std::string("property float ") + axis + "\n" : "";
+  }
   for (const char* color : { "red", "green", "blue" })
   {
     text += this->isColored ? std::string("property uchar ") + color + "\n" : "";
@@ -76,13 +80,13 @@ bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string
   const std::string& fileName)
 {
   CheckCounts(surface, fileName);
-  auto* rgb = colors.empty()
-    ? nullptr
-    : vtkUnsignedCharArray::SafeDownCast(surface->GetPointData()->GetArray(colors.c_str()));
+  auto* rgb = vtkUnsignedCharArray::SafeDownCast(surface->GetPointData()->GetArray(colors.c_str()));
+  vtkDataArray* normals = surface->GetPointData()->GetArray("Normals");
   PlyHeader header;
   header.comment = comment;
   header.isDouble = surface->GetPoints()->GetDataType() != VTK_FLOAT && !AreSingle(surface);
   header.isColored = rgb && rgb->GetNumberOfComponents() >= 3;
+  header.hasNormals = normals && normals->GetNumberOfComponents() == 3;
   header.vertices = surface->GetNumberOfPoints();
   header.faces = surface->GetNumberOfPolys();
   std::ofstream file(fileName, std::ios::binary);
@@ -94,6 +98,10 @@ bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string
     for (double coordinate : point)
     {
       header.isDouble ? Put(file, coordinate) : Put(file, static_cast<float>(coordinate));
+    }
+    for (int axis = 0; axis < 3 && header.hasNormals; ++axis)
+    {
+      Put(file, static_cast<float>(normals->GetComponent(i, axis)));
     }
     for (int channel = 0; channel < 3 && header.isColored; ++channel)
     {

@@ -17,6 +17,7 @@ struct PlyHeader
 {
   std::string comment; ///< one line, or empty
   bool isDouble = false;
+  bool hasNormals = false; ///< single precision
   bool isColored = false;
   std::int64_t vertices = 0, faces = 0;
 
@@ -30,7 +31,8 @@ inline bool IsSingle(double coordinate)
 }
 
 /// Writes the points and polygons of a surface as a binary PLY, in double precision where single precision
-/// does not keep every coordinate, with the colours of the points unless `colors` is empty. False where the
+/// does not keep every coordinate, with the colours of the points that `colors`
+/// names, and the normals of the array Normals, where they are. False where the
 /// disk fails. Throws Error where there are more points than a PLY can count.
 bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string& comment,
   const std::string& fileName);

@@ -58,7 +58,7 @@ bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::s
 {
   if (ending == ".ply")
   {
-    return freespace::WritePLY(surface, "", freespace::ViewpointComment(surface), fileName);
+    return freespace::WritePLY(surface, "RGB", freespace::ViewpointComment(surface), fileName);
   }
   if (ending == ".stl")
   {

@@ -5,8 +5,9 @@
  *
  * The file is written beside its target and renamed, so that the target is either the old file or the
  * complete new one. PLY and STL are binary; a PLY has double precision if single precision does not
- * represent every coordinate, and an STL that would lose the surface is an error. Only VTP stores the data
- * arrays. Another extension, or a folder that cannot be written, is an error that names the file; Write()
+ * represent every coordinate, and an STL that would lose the surface is an error. Only VTP stores all data
+ * arrays; a PLY has the point data RGB (unsigned char x3) as colours and Normals, where they are, and an OBJ
+ * the normals. Another extension, or a folder that cannot be written, is an error that names the file; Write()
  * then returns 0.
  *
  * @sa vtkSurfaceReader vtkFreespaceSurfaceFilter vtkTexturedSurfaceWriter

@@ -2,6 +2,7 @@
 #include "ViewDependent/PhotographLayers.h"
 
 #include "Execution/SMPParallelFor.h"
+#include "Mesh/Distance/SurfaceSamples.h"
 #include "ViewDependent/OpenGLFunctions.h"
 
 #include <vtkOpenGLState.h>
@@ -40,7 +41,11 @@ void PhotographLayers::SetPhotographs(const std::vector<Photograph>& photographs
 
 void PhotographLayers::MakeMaps(const TriangleMesh& surface, const VisibilityOptions& options)
 {
-  this->Samples = SampleSurface(surface, 500);
+  this->Samples.clear();
+  for (const SurfaceSample& sample : SampleSurface(surface, 500))
+  {
+    this->Samples.push_back(sample.point);
+  }
   this->Maps.assign(this->Photographs.size(), VisibilityMap());
   SMPParallelFor(this->Maps.size(),
     [&](std::size_t begin, std::size_t end)

@@ -3,7 +3,7 @@
 #define freespace_PhotographLayers_h
 
 #include "Texture/Photograph.h"
-#include "Texture/TriangleMesh.h"
+#include "Mesh/TriangleMesh.h"
 #include "Texture/VisibilityMap.h"
 #include "ViewDependent/LayeredTexture.h"
 #include "ViewSelection/ViewSelection.h"

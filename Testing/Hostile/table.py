@@ -62,6 +62,11 @@ for name, content in SURFACES.items():
     row(f'render {name}', {name: content}, ['render', name, '-o', 'out.png'], sentence)
     row(f'texture {name}', {name: content}, ['texture', name, '--scene', 'scene.json', '-o', 'out.glb'], sentence)
     row(f'view {name}', {name: content}, ['view', 'scene.json', '--mesh', name, '-o', 'out.png'], sentence)
+    row(f'mesh {name}', {name: content}, ['mesh', name, '--normals', '-o', 'out.ply'], sentence)
+    row(f'compare {name}', {name: content}, ['compare', name, 'mesh.ply', '--json', 'out.json'], sentence)
+    row(f'compare with {name}', {name: content}, ['compare', 'mesh.ply', name, '-o', 'out.ply'], sentence)
+    if name not in ('mesh.xyz', 'mesh'):
+        row(f'info {name}', {name: content}, ['info', name, '--json', 'out.json'], sentence)
 
 # Features and disparity maps.
 
@@ -87,12 +92,13 @@ BLOCKS = {
     'itself as a block': {'a.vtm': vtm(BLOCK.format(0).replace('a.vtp', 'a.vtm'))},
 }
 USERS_OF_BLOCKS = {'triangulate': ['-o', 'out.vtm'], 'contour': ['-o', 'out.ply'],
-                   'query': ['--points', 'points.csv'], 'occupancy': ['-o', 'out.bt']}
+                   'query': ['--points', 'points.csv'], 'occupancy': ['-o', 'out.bt'],
+                   'info': ['--json', 'out.json'], 'export': ['-o', 'out.csv']}
 for command, options in USERS_OF_BLOCKS.items():
     for name, files in BLOCKS.items():
         row(f'{command} with {name}', files, [command, 'a.vtm', *options], r'a\.vt[mp]')
     row(f'{command} without a file', {}, [command, 'absent.vtm', *options], r'absent\.vtm')
-    row(f'{command} of a folder', {}, [command, 'images', *options], 'images')
+    row(f'{command} of a folder', {}, [command, 'images', *options], 'out.csv' if command == 'export' else 'images')
 
 # Scenes.
 
@@ -126,7 +132,7 @@ SCENES = {
 }
 USERS_OF_SCENES = {'stereo': ['-o', 'out.vtm'], 'reconstruct': ['-o', 'out.ply'], 'refine': ['-o', 'out'],
                    'clusters': ['-o', 'out.json'], 'view': ['--mesh', 'mesh.ply', '-o', 'out.png'],
-                   'report': ['-o', 'out']}
+                   'report': ['-o', 'out'], 'info': ['--json', 'out.json'], 'export': ['-o', 'out.ply']}
 for command, options in USERS_OF_SCENES.items():
     for name, content in SCENES.items():
         # The command that chooses the clusters does not look at those that are there.
@@ -169,6 +175,8 @@ for name, files in MODELS.items():
     row(f'sparse with {name}', files, ['sparse', 'bad', '-o', 'out.vtm'], 'bad')
     row(f'clusters with {name}', files, ['clusters', 'bad', '--images', 'images', '-o', 'out.json'], 'bad')
     row(f'reconstruct with {name}', files, ['reconstruct', 'bad', '-o', 'out.ply'], 'bad')
+    if name != 'no points': # which is a model of cameras
+        row(f'info with {name}', files, ['info', 'bad', '--json', 'out.json'], 'bad')
 for name, content in {'empty.nvm': '', 'noise.nvm': b'\x93\x00\xff' * 50, 'cut.nvm': 'NVM_V3\n\n5\n', 'empty.out': '',
                       'noise.out': b'\x93\x00\xff' * 50, 'many.out': '# Bundle file v0.3\n2000000000 2000000000\n',
                       'many.nvm': 'NVM_V3\n\n2000000000\n', 'fixed.nvm': 'NVM_V3 FixedK 1 2\n',
@@ -254,9 +262,11 @@ OUTPUTS = {'reconstruct': ['scene.json'], 'sparse': ['model'], 'stereo': ['scene
            'triangulate': ['features.vtm'], 'contour': ['maps.vtm'], 'render': ['mesh.ply'],
            'texture': ['mesh.ply', '--scene', 'scene.json'], 'occupancy': ['maps.vtm'],
            'view': ['scene.json', '--mesh', 'mesh.ply'], 'clusters': ['scene.json'], 'refine': ['scene.json'],
+           'mesh': ['mesh.ply'], 'export': ['features.vtm'],
            'calibrate': ['images/cluster1_c.jpg', '--board', 'chessboard:9x6:1'], 'report': ['scene.json']}
 ENDINGS = {'reconstruct': '.ply', 'sparse': '.vtm', 'stereo': '.vtm', 'triangulate': '.vtm', 'contour': '.ply',
-           'render': '.png', 'texture': '.glb', 'occupancy': '.bt', 'view': '.png', 'clusters': '.json'}
+           'render': '.png', 'texture': '.glb', 'occupancy': '.bt', 'view': '.png', 'clusters': '.json',
+           'mesh': '.ply', 'export': '.ply'}
 for command, inputs in OUTPUTS.items():
     ending = ENDINGS.get(command)
     if not ending:
@@ -296,3 +306,35 @@ for name, content in {'noise': b'\x93\x00\xff' * 50, 'an unknown key': 'colour=1
         MISUSED)
 for name in ('/dev/zero', 'images', 'absent.ini'):
     row(f'options of {name}', {}, ['--config', name, 'contour', 'maps.vtm', '-o', 'out.ply'], '.', MISUSED)
+
+# Meshes: values of the operations, matrices; batches.
+
+for option, values in {'--crop': ('1,2,3', '1,0,0,1,0,1', 'a', 'nan,1,0,1,0,1'), '--largest': ('0', '-1', '1.5', 'x'),
+                       '--crumbs': ('-1', 'nan', ''), '--smooth': ('0', 'inf'), '--simplify': ('0', '-1', 'x'),
+                       '--triangles': ('0', '99999999999'), '--fill': ('-1',), '--scale': ('0', '-2', 'x'),
+                       '--shift': ('1,2', '1,2,3,4', '1,2,x', '1,,2')}.items():
+    for value in values:
+        row(f'mesh {option} {value}', {}, ['mesh', 'mesh.ply', f'{option}={value}', '-o', 'out.ply'], option, MISUSED)
+for name, content in {'an empty matrix': '', 'a matrix of words': 'a b c', 'a matrix of noise': b'\x93\x00\xff' * 100,
+                      'three rows': '1 0 0 0 ' * 3, '17 numbers': '1 ' * 17, 'a flat matrix': '0 ' * 15 + '1',
+                      'a perspective': '1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1', 'nan': 'nan ' * 16}.items():
+    row(f'mesh --transform of {name}', {'bad.txt': content}, ['mesh', 'mesh.ply', '--transform', 'bad.txt', '-o', 'out.ply'],
+        r'bad\.txt')
+for name in ('/dev/zero', 'images', 'absent.txt'):
+    row(f'mesh --transform of {name}', {}, ['mesh', 'mesh.ply', '--transform', name, '-o', 'out.ply'], name)
+row('mesh of which nothing is left', {}, ['mesh', 'mesh.ply', '--crop', '9e9,9.1e9,0,1,0,1', '-o', 'out.ply'], 'crop')
+row('mesh coloured from no scene', {}, ['mesh', 'mesh.ply', '--colour-from', 'absent.json', '-o', 'out.ply'], 'absent')
+for arguments in (['--distances', '0'], ['--distances', '1,x'], ['--samples', '-1'], ['--bins', '0']):
+    row(f'compare {" ".join(arguments)}', {}, ['compare', 'mesh.ply', 'mesh.ply', *arguments], arguments[0], MISUSED)
+for option, name in (('-o', 'absent/out.ply'), ('-o', 'out.xyz'), ('--json', 'absent/out.json'), ('--json', 'images'),
+                     ('--histogram', 'absent/out.csv')):
+    row(f'compare {option} {name}', {}, ['compare', 'mesh.ply', 'mesh.ply', option, name], name)
+row('info into a folder', {}, ['info', 'mesh.ply', '--json', 'images'], 'images')
+for name, content in {'nothing': '', 'noise': b'\x93\x00\xff' * 100, 'a list': '[]', 'deep': '[' * 100000, 'no steps': '{}',
+                      'an unknown key': '{"steps": ["info x"], "a": 1}', 'an unknown command': '{"steps": ["cook"]}',
+                      'itself': '{"steps": ["run a"]}', 'a number': '{"steps": [1]}', 'an empty step': '{"steps": [""]}',
+                      'a bad column': '{"steps": ["info x"], "table": {"a": "b"}}'}.items():
+    row(f'run with {name}', {'bad.json': content}, ['run', 'bad.json', 'scene.json', '-o', 'out'], r'bad\.json')
+row('run without a batch', {}, ['run', 'absent.json', 'scene.json', '-o', 'out'], r'absent\.json')
+row('run without the scene', {'a.json': '{"steps": ["info x"]}'}, ['run', 'a.json', 'absent', '-o', 'out'], 'absent')
+row('run of a scene twice', {'a.json': '{"steps": ["info x"]}'}, ['run', 'a.json', 'mesh.ply', 'mesh.ply', '-o', 'out'], 'mesh')

@@ -29,7 +29,7 @@ if(EXISTS "${PREFIX}/usr/bin/freespace")
 endif()
 if(PYTHON)
   foreach(module IN ITEMS freespace freespace.vtkFreespaceFilters freespace.vtkFreespaceReaders
-      freespace.vtkFreespaceWriters freespace.vtkFreespaceRendering)
+      freespace.vtkFreespaceSurface freespace.vtkFreespaceWriters freespace.vtkFreespaceRendering)
     run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/usr/${PYTHON_DIR}" "${PYTHON}" -c "import ${module}")
   endforeach()
 endif()

@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
 COMMANDS = ('reconstruct', 'sparse', 'calibrate', 'clusters', 'stereo', 'triangulate', 'contour', 'query', 'render',
-            'texture', 'occupancy', 'view', 'report', 'refine', 'depth')
+            'texture', 'occupancy', 'view', 'report', 'refine', 'depth', 'compare', 'mesh',
+            'info', 'export', 'run')
 
 
 def run(*arguments, cwd=None):

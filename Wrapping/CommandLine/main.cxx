@@ -109,6 +109,11 @@ void AddCommands(CLI::App& program, freespace::Session& session)
   freespace::AddOccupancyCommand(program, session);
   freespace::AddReportCommand(program, session);
   freespace::AddViewCommand(program, session);
+  freespace::AddMeshCommand(program, session);
+  freespace::AddCompareCommand(program, session);
+  freespace::AddInfoCommand(program, session);
+  freespace::AddExportCommand(program, session);
+  freespace::AddRunCommand(program, session);
 }
 
 // A section of the config file runs the command that it is named after, unless the command line names

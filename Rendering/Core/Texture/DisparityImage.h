@@ -3,7 +3,7 @@
 #define freespace_DisparityImage_h
 
 #include "Common/Camera.h"
-#include "Texture/TriangleMesh.h"
+#include "Mesh/TriangleMesh.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #ifndef freespace_SurfaceGeometry_h
 #define freespace_SurfaceGeometry_h
 
-#include "Texture/TriangleMesh.h"
+#include "Mesh/TriangleMesh.h"
 
 #include <array>
 #include <vector>

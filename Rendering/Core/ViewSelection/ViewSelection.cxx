@@ -9,37 +9,6 @@
 namespace freespace
 {
 
-std::vector<Eigen::Vector3d> SampleSurface(const TriangleMesh& mesh, int count)
-{
-  std::vector<double> areas(mesh.triangles.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < areas.size(); ++i)
-  {
-    const auto& [a, b, c] = mesh.triangles[i];
-    const Eigen::Vector3d& corner = mesh.points[a];
-    const double area = (mesh.points[b] - corner).cross(mesh.points[c] - corner).norm();
-    sum += std::isfinite(area) ? area : 0;
-    areas[i] = sum;
-  }
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::vector<Eigen::Vector3d> samples;
-  for (int i = 0; i < count && sum > 0; ++i)
-  {
-    const auto at = std::lower_bound(areas.begin(), areas.end(), sum * (i + 0.5) / count);
-    const auto& [a, b, c] = mesh.triangles[at - areas.begin()];
-    double s = unit(random);
-    double t = unit(random);
-    if (s + t > 1)
-    {
-      s = 1 - s;
-      t = 1 - t;
-    }
-    samples.push_back((1 - s - t) * mesh.points[a] + s * mesh.points[b] + t * mesh.points[c]);
-  }
-  return samples;
-}
-
 std::vector<int> BestViews(const std::vector<Photograph>& views,
   const std::vector<VisibilityMap>& maps, const std::vector<Eigen::Vector3d>& samples,
   const Eigen::Vector3d& novelCenter, std::size_t count)

@@ -3,7 +3,7 @@
 #define freespace_ViewSelection_h
 
 #include "Texture/Photograph.h"
-#include "Texture/TriangleMesh.h"
+#include "Mesh/TriangleMesh.h"
 #include "Texture/VisibilityMap.h"
 
 #include <cstddef>
@@ -11,10 +11,6 @@
 
 namespace freespace
 {
-
-/// Random points of a surface, each for an equal share of its area; the same ones in each call. None
-/// for a surface without area.
-std::vector<Eigen::Vector3d> SampleSurface(const TriangleMesh& mesh, int count);
 
 /// The views that have most of the weight at the samples of the surface when it is seen from a novel
 /// centre of projection, at most `count`, in ascending order. A view weighs more the less its direction

@@ -3,7 +3,7 @@
 #define freespace_VisiblePoints_h
 
 #include "Common/Camera.h"
-#include "Texture/TriangleMesh.h"
+#include "Mesh/TriangleMesh.h"
 
 #include <vector>
 

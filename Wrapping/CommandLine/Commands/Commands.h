@@ -19,12 +19,17 @@ void AddRefineCommand(CLI::App& program, Session& session);
 void AddStereoCommand(CLI::App& program, Session& session);
 void AddTriangulateCommand(CLI::App& program, Session& session);
 void AddContourCommand(CLI::App& program, Session& session);
+void AddCompareCommand(CLI::App& program, Session& session);
+void AddExportCommand(CLI::App& program, Session& session);
+void AddInfoCommand(CLI::App& program, Session& session);
+void AddMeshCommand(CLI::App& program, Session& session);
 void AddQueryCommand(CLI::App& program, Session& session);
 void AddRenderCommand(CLI::App& program, Session& session);
 void AddTextureCommand(CLI::App& program, Session& session);
 void AddOccupancyCommand(CLI::App& program, Session& session);
 void AddReportCommand(CLI::App& program, Session& session);
 void AddViewCommand(CLI::App& program, Session& session);
+void AddRunCommand(CLI::App& program, Session& session);
 
 }
 

@@ -3,7 +3,7 @@
 
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
-#include "PhotographBlocks.h"
+#include "Data/SurfaceMesh.h"
 #include "Viewpoints/FramePoints.h"
 #include "Viewpoints/NovelCameras.h"
 #include "Viewpoints/VisiblePoints.h"

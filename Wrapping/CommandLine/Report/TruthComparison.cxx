@@ -3,16 +3,13 @@
 
 #include "Common/Error.h"
 #include "Common/Median.h"
+#include "Data/SurfaceMesh.h"
+#include "Execution/SMPParallelFor.h"
 #include "Freespace/FeatureHull.h"
-#include "PhotographBlocks.h"
+#include "Mesh/Distance/SurfaceComparison.h"
 #include "Texture/DisparityImage.h"
 
-#include <vtkCellArray.h>
-#include <vtkGenericCell.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStaticCellLocator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,68 +76,13 @@ double MedianOrNaN(std::vector<double> values)
   return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(std::move(values));
 }
 
-vtkSmartPointer<vtkPolyData> PolyDataFromMesh(const TriangleMesh& mesh)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const Eigen::Vector3d& point : mesh.points)
-  {
-    points->InsertNextPoint(point.data());
-  }
-  vtkNew<vtkCellArray> cells;
-  for (const std::array<int, 3>& triangle : mesh.triangles)
-  {
-    cells->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
-  }
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
-  surface->SetPoints(points);
-  surface->SetPolys(cells);
-  return surface;
-}
-
 // The share of points that are nearer to a surface than each limit; those that are not finite, where
 // there is nothing to be judged, have no part in it.
-std::array<double, 3> ShareNear(const std::vector<Eigen::Vector3d>& points,
+std::array<double, 3> SharesNear(const std::vector<Eigen::Vector3d>& points,
   const TriangleMesh& mesh, const std::array<double, 3>& limits)
 {
-  if (mesh.triangles.empty())
-  {
-    return {};
-  }
-  const auto surface = PolyDataFromMesh(mesh);
-  vtkNew<vtkStaticCellLocator> locator;
-  locator->SetDataSet(surface);
-  locator->BuildLocator();
-  vtkNew<vtkGenericCell> cell;
-  std::array<std::size_t, 3> near{};
-  std::size_t count = 0;
-  for (const Eigen::Vector3d& point : points)
-  {
-    if (!point.allFinite())
-    {
-      continue;
-    }
-    ++count;
-    double nearest[3];
-    vtkIdType cellId = -1;
-    int subId = 0;
-    double squared = 0;
-    // What is farther off than the last limit need not be found.
-    if (locator->FindClosestPointWithinRadius(
-          const_cast<double*>(point.data()), limits[2], nearest, cell, cellId, subId, squared))
-    {
-      for (int i = 0; i < 3; ++i)
-      {
-        near[i] += std::sqrt(squared) < limits[i] ? 1 : 0;
-      }
-    }
-  }
-  std::array<double, 3> shares{};
-  for (int i = 0; i < 3; ++i)
-  {
-    shares[i] = count > 0 ? double(near[i]) / count : 0;
-  }
-  return shares;
+  const auto shares = ShareNear(points, mesh, { limits.begin(), limits.end() }, SMPParallelFor);
+  return { shares[0], shares[1], shares[2] };
 }
 
 void SetRayFigures(const std::vector<Hit>& hits, TruthFigures& figures)
@@ -168,8 +110,7 @@ void SetRayFigures(const std::vector<Hit>& hits, TruthFigures& figures)
 
 double TruthFigures::F(int limit) const
 {
-  const double sum = this->accuracy[limit] + this->completeness[limit];
-  return sum > 0 ? 2 * this->accuracy[limit] * this->completeness[limit] / sum : 0;
+  return HarmonicMean(this->accuracy[limit], this->completeness[limit]);
 }
 
 TruthFigures CompareWithTruth(vtkPolyData* surface, vtkPolyData* truth,
@@ -204,8 +145,8 @@ TruthFigures CompareWithTruth(vtkPolyData* surface, vtkPolyData* truth,
   figures.limits = { 0.001 * figures.medianDepth, 0.002 * figures.medianDepth,
     0.005 * figures.medianDepth };
   SetRayFigures(hits, figures);
-  figures.accuracy = ShareNear(points, trueMesh, figures.limits);
-  figures.completeness = ShareNear(truePoints, mesh, figures.limits);
+  figures.accuracy = SharesNear(points, trueMesh, figures.limits);
+  figures.completeness = SharesNear(truePoints, mesh, figures.limits);
   return figures;
 }
 

@@ -7,6 +7,7 @@
 #include "Output/PieceStream.h"
 #include "Output/Viewpoint.h"
 #include "Session/NumberValidators.h"
+#include "Session/MachineMemory.h"
 #include "Session/Session.h"
 
 #include <vtkAppendPiecesFilter.h>
@@ -22,8 +23,6 @@
 #include <cmath>
 #include <sstream>
 
-#include <unistd.h>
-
 namespace freespace
 {
 
@@ -35,13 +34,6 @@ constexpr double LargestPly = 150000;
 
 // What no cell of a lattice exceeds, in MiB: five triangles.
 constexpr double WorstCell = 5 * 60.0 / (1024 * 1024);
-
-// Three quarters of the machine's memory, in MiB.
-double ShareOfMemory()
-{
-  const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-  return 0.75 * pages * sysconf(_SC_PAGESIZE) / (1024 * 1024);
-}
 
 }
 

@@ -14,10 +14,10 @@ import os
 import re
 from functools import partial
 
-from . import vtkFreespaceFilters, vtkFreespaceReaders, vtkFreespaceRendering, vtkFreespaceWriters
+from . import vtkFreespaceFilters, vtkFreespaceReaders, vtkFreespaceRendering, vtkFreespaceSurface, vtkFreespaceWriters
 from .running import Run, run_method
 
-MODULES = (vtkFreespaceFilters, vtkFreespaceReaders, vtkFreespaceWriters, vtkFreespaceRendering)
+MODULES = (vtkFreespaceFilters, vtkFreespaceSurface, vtkFreespaceReaders, vtkFreespaceWriters, vtkFreespaceRendering)
 
 
 def snake_case(name):

@@ -2,6 +2,8 @@
 #ifndef freespace_TriangleGrid_h
 #define freespace_TriangleGrid_h
 
+#include "Mesh/NearestOnTriangle.h"
+
 #include <Eigen/Geometry>
 
 #include <array>
@@ -17,10 +19,6 @@ struct TrianglePlace
   int triangle = -1; ///< -1: none
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();
 };
-
-/// The weights of the point of a triangle that is nearest to a point.
-Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
-  const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 /// The triangles of a mesh, found by where they are: in the cells of a grid. Keeps references to both
 /// arrays.

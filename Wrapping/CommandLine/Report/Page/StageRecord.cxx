@@ -43,7 +43,7 @@ StageRecord::StageRecord(const std::string& file)
     for (const auto& [name, stage] : record.at("stages").items())
     {
       this->Stages[name] = { stage.at("options").get<std::vector<std::string>>(),
-        stage.at("seconds").get<double>() };
+        stage.at("seconds").get<double>(), stage.value("mebibytes", 0.0) };
     }
   }
   catch (const nlohmann::json::exception&)
@@ -71,10 +71,16 @@ double StageRecord::Seconds(const std::string& stage) const
   return found == this->Stages.end() ? 0 : found->second.seconds;
 }
 
-void StageRecord::Set(
-  const std::string& stage, const std::vector<std::string>& options, double seconds)
+double StageRecord::Mebibytes(const std::string& stage) const
 {
-  this->Stages[stage] = { options, seconds };
+  const auto found = this->Stages.find(stage);
+  return found == this->Stages.end() ? 0 : found->second.mebibytes;
+}
+
+void StageRecord::Set(const std::string& stage, const std::vector<std::string>& options,
+  double seconds, double mebibytes)
+{
+  this->Stages[stage] = { options, seconds, mebibytes };
   this->Write();
 }
 
@@ -84,6 +90,10 @@ void StageRecord::Write() const
   for (const auto& [name, stage] : this->Stages)
   {
     record["stages"][name] = { { "options", stage.options }, { "seconds", stage.seconds } };
+    if (stage.mebibytes > 0)
+    {
+      record["stages"][name]["mebibytes"] = stage.mebibytes;
+    }
   }
   AtomicOutput target(this->File);
   std::ofstream file(target.Path());

@@ -26,14 +26,19 @@ public:
   /// How long the stage took when it was made, seconds.
   double Seconds(const std::string& stage) const;
 
+  /// The most memory that it had then, MiB; 0 where that is not known.
+  double Mebibytes(const std::string& stage) const;
+
   /// Notes that a stage was made, and writes the record. Throws Error when that fails.
-  void Set(const std::string& stage, const std::vector<std::string>& options, double seconds);
+  void Set(const std::string& stage, const std::vector<std::string>& options, double seconds,
+    double mebibytes = 0);
 
 private:
   struct Stage
   {
     std::vector<std::string> options;
     double seconds = 0;
+    double mebibytes = 0;
   };
 
   void Write() const;

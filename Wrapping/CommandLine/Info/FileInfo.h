@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_FileInfo_h
+#define freespace_FileInfo_h
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+class vtkMultiBlockDataSet;
+class vtkPolyData;
+
+namespace freespace
+{
+
+class Session;
+
+/// What a file holds that the program reads: a surface, features or disparity maps, a scene, a camera model, a
+/// photograph. Each value is a number, a word, a list of these, or such an object. Throws Error naming the file when
+/// it cannot be read.
+nlohmann::ordered_json InfoOf(Session& session, const std::string& fileName);
+
+///@{
+/// The same of what was read.
+nlohmann::ordered_json SurfaceInfo(vtkPolyData* surface);
+nlohmann::ordered_json ViewsInfo(vtkMultiBlockDataSet* views);
+nlohmann::ordered_json ModelInfo(const std::string& path);
+nlohmann::ordered_json SceneInfo(const std::string& path);
+///@}
+
+/// It as lines for people: lists of more than a few words are cut, lists of objects become tables.
+std::string InfoText(const nlohmann::ordered_json& info);
+
+}
+
+#endif

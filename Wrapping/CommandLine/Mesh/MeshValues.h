@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef freespace_MeshValues_h
+#define freespace_MeshValues_h
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace freespace
+{
+
+/// The finite numbers of a text, parted by commas; empty when it has anything else.
+std::vector<double> NumbersOf(const std::string& text);
+
+/// The 4 x 4 numbers of a file, row by row. Throws Error naming it when they are not there, not finite, not
+/// affine or not invertible.
+std::array<double, 16> ReadMatrix(const std::string& fileName);
+
+///@{
+/// What is wrong with the value of an option; empty: nothing.
+std::string BoxFault(const std::string& text);
+std::string VectorFault(const std::string& text);
+std::string NumberFault(const std::string& text); ///< above 0
+std::string CountFault(const std::string& text);  ///< 1 or more
+std::string AnyFault(const std::string& text);
+///@}
+
+}
+
+#endif
