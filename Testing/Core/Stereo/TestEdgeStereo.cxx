@@ -29,7 +29,7 @@ public:
     std::filesystem::create_directories(this->Folder.Path("images"));
     for (int i = 0; i < 5; ++i)
     {
-      this->Images.push_back({ names[i], cameras[i], distortion });
+      this->Images.push_back({ names[i], cameras[i], LensKind::Perspective, distortion });
       cv::imwrite(this->Folder.Path("images/" + std::string(names[i])),
         Render({ plane }, cameras[i], Undistorted(cameras[i], distortion), 12));
     }
