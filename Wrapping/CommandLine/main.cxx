@@ -12,6 +12,7 @@
 #include "Session/Session.h"
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -265,6 +266,9 @@ int main(int argc, char* argv[])
 {
   KeepFreedMemory();
   freespace::ListenToInterrupts();
+  // A write fails then, which can be told.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   // Of the processes that mpiexec started only the first one prints.
   if (freespace::LaunchedRank() > 0)
   {

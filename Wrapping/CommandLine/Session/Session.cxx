@@ -20,7 +20,6 @@
 #include <vtkWriter.h>
 
 #include <algorithm>
-#include <csignal>
 #include <iostream>
 
 namespace freespace
@@ -85,8 +84,6 @@ void Session::Begin()
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkOutputWindow::SetInstance(Collector());
   vtkSMPTools::Initialize(this->Threads);
-  std::signal(SIGXFSZ, SIG_IGN); // a write fails then, which can be told
-  std::signal(SIGPIPE, SIG_IGN); // so does it
 }
 
 std::function<void()> Session::Defer(std::function<void()> action, Sharing sharing)
