@@ -45,7 +45,8 @@ std::vector<std::size_t> RanksOf(std::size_t others, std::size_t most)
   if (others > most)
   {
     const std::size_t next = (most + 1) / 2, spread = most - next;
-    const double ratio = static_cast<double>(others) / static_cast<double>(std::max<std::size_t>(next, 1));
+    const double ratio =
+      static_cast<double>(others) / static_cast<double>(std::max<std::size_t>(next, 1));
     for (std::size_t k = 0; k < spread; ++k)
     {
       const double rank = static_cast<double>(next) *
