@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPhotographReader.h"
 
+#include "Files/PathChecks.h"
 #include "Data/ViewBlocks.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
@@ -56,7 +57,7 @@ int vtkPhotographReader::RequestData(
     for (std::size_t i = 0; i < images.size(); ++i)
     {
       const std::string path = scene.ImagePath(images[i].file);
-      if (std::filesystem::exists(path))
+      if (freespace::IsThere(path))
       {
         const auto data = ImageDataOf(freespace::ReadUndistortedImage(path, images[i]));
         freespace::AddCamera(data, images[i].camera, images[i].file);

@@ -3,6 +3,7 @@
 
 #include "Agreement/ProjectionErrors.h"
 #include "Agreement/RemainingImages.h"
+#include "Files/PathChecks.h"
 #include "Common/Error.h"
 #include "Scene/SceneClusters.h"
 
@@ -43,10 +44,10 @@ void CheckMasks(const Scene& scene, const SparseModel& model, std::vector<std::s
   std::size_t photographs = 0;
   for (const SparseImage& image : model.images)
   {
-    if (!scene.masks.empty() && std::filesystem::exists(scene.ImagePath(image.name)))
+    if (!scene.masks.empty() && IsThere(scene.ImagePath(image.name)))
     {
       ++photographs;
-      if (!std::filesystem::exists(scene.MaskPath(image.name)))
+      if (!IsThere(scene.MaskPath(image.name)))
       {
         missing.push_back(image.name);
       }

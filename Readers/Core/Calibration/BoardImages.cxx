@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Calibration/BoardImages.h"
 
+#include "Files/PathChecks.h"
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Files/FileNames.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 cv::Mat ReadGrayImage(const std::string& file)
 {
-  const cv::Mat gray = fs::is_regular_file(file) ? DecodeImage(file, false) : cv::Mat();
+  const cv::Mat gray = IsFile(file) ? DecodeImage(file, false) : cv::Mat();
   if (gray.empty())
   {
     throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Images/ImageFile.h"
 
 #include "Common/Error.h"
@@ -11,7 +12,7 @@ namespace freespace
 
 cv::Mat LoadImage(const std::string& path, int width, int height)
 {
-  if (!std::filesystem::is_regular_file(path))
+  if (!IsFile(path))
   {
     throw Error("Cannot read the image " + path + ": there is no such file.");
   }

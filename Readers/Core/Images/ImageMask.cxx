@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Images/ImageMask.h"
 
 #include "Common/Error.h"
@@ -14,7 +15,7 @@ namespace freespace
 
 cv::Mat LoadMask(const std::string& path, int width, int height)
 {
-  if (!std::filesystem::exists(path))
+  if (!IsThere(path))
   {
     return {};
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Images/ImageSize.h"
 
 #include <opencv2/imgcodecs.hpp>
@@ -83,7 +84,7 @@ Size SizeOfJpeg(std::istream& file)
 
 Size ReadImageSize(const std::string& path)
 {
-  if (!std::filesystem::is_regular_file(path))
+  if (!IsFile(path))
   {
     return std::nullopt;
   }

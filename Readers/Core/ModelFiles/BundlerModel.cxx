@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "ModelFiles/BundlerModel.h"
 
 #include "Common/Error.h"
@@ -83,7 +84,7 @@ ImageList ReadList(const fs::path& file)
          folder / (stem.string() + ".list.txt"), folder / (stem.stem().string() + ".list.txt"),
          folder / "list.txt", folder / ".." / "list.txt" })
   {
-    if (fs::is_regular_file(candidate))
+    if (IsFile(candidate))
     {
       ImageList list;
       list.file = candidate;

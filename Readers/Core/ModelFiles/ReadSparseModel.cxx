@@ -2,6 +2,7 @@
 #include "ModelFiles/ReadSparseModel.h"
 
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 #include "ModelFiles/AliceVisionModel.h"
 #include "ModelFiles/BundlerModel.h"
 #include "ModelFiles/ForeignModel.h"
@@ -206,7 +207,7 @@ SparseModel ReadSparseModel(const std::string& path)
     case ModelKind::None:
       break;
   }
-  if (!fs::exists(path))
+  if (!IsThere(path))
   {
     throw Error("Cannot read the camera model " + path + ": there is no such file or folder.");
   }
@@ -214,7 +215,7 @@ SparseModel ReadSparseModel(const std::string& path)
   {
     throw Error("Cannot read the camera model " + path + ": " + foreign + ".");
   }
-  if (fs::is_directory(path))
+  if (IsFolder(path))
   {
     return ReadColmapModel(path); // tells which of its files are missing
   }

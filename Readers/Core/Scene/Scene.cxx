@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Scene/Scene.h"
 
 #include "Files/AtomicOutput.h"
@@ -142,9 +143,10 @@ std::string Rebase(const std::string& from, const std::string& folder, const std
   {
     return folder;
   }
-  return fs::proximate(
-    fs::absolute(Resolve(from, folder)), fs::absolute(fs::path(to)).parent_path())
-    .string();
+  std::error_code tooLong;
+  const fs::path target = fs::absolute(Resolve(from, folder));
+  const fs::path rebased = fs::proximate(target, fs::absolute(fs::path(to)).parent_path(), tooLong);
+  return (tooLong ? target : rebased).string();
 }
 
 // Ordered, so that the file reads as it is documented.
@@ -185,7 +187,7 @@ std::string ImagesBeside(const fs::path& model)
   for (int level = 0; level < 4 && above.has_parent_path(); ++level)
   {
     above = above.parent_path();
-    if (fs::is_directory(above / "images"))
+    if (IsFolder(above / "images"))
     {
       return (above / "images").string();
     }
@@ -208,7 +210,7 @@ Scene SceneOfModel(const std::string& path, const ModelSource& source)
   const SparseModel read = ReadSparseModel(source.path);
   const fs::path told = fs::absolute(read.folder.empty() ? "." : read.folder).lexically_normal();
   const bool areThere = std::any_of(read.images.begin(), read.images.end(),
-    [&](const SparseImage& image) { return fs::exists(told / image.name); });
+    [&](const SparseImage& image) { return IsThere(told / image.name); });
   scene.images = areThere ? told.string() : ImagesBeside(model.parent_path());
   return scene;
 }
@@ -273,10 +275,10 @@ std::string Scene::ImagePath(const std::string& image) const
 Scene ReadScene(const std::string& path)
 {
   std::string file = path;
-  if (fs::is_directory(path))
+  if (IsFolder(path))
   {
     file = (fs::path(path) / "scene.json").string();
-    file = fs::exists(file) ? file : path;
+    file = IsThere(file) ? file : path;
   }
   if (const ModelSource source = FindModel(file); source.kind != ModelKind::None)
   {
@@ -286,7 +288,7 @@ Scene ReadScene(const std::string& path)
   {
     throw Error("Cannot read " + file + ": " + foreign + ".");
   }
-  if (fs::is_directory(file))
+  if (IsFolder(file))
   {
     throw Error("Cannot read " + file +
       ": it is a folder, neither a scene.json nor with a camera model (cameras and images, .bin or "

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Scene/SceneClusters.h"
 
 #include "Common/Error.h"
@@ -11,14 +12,14 @@ namespace freespace
 
 SparseModel WithExistingPhotographs(const Scene& scene, SparseModel model)
 {
-  if (!std::filesystem::is_directory(scene.ImagesFolder()))
+  if (!IsFolder(scene.ImagesFolder()))
   {
     return model;
   }
   const std::size_t all = model.images.size();
-  model.images.erase(std::remove_if(model.images.begin(), model.images.end(),
-                       [&](const SparseImage& image)
-                       { return !std::filesystem::exists(scene.ImagePath(image.name)); }),
+  model.images.erase(
+    std::remove_if(model.images.begin(), model.images.end(),
+      [&](const SparseImage& image) { return !IsThere(scene.ImagePath(image.name)); }),
     model.images.end());
   if (model.images.empty() && all > 0)
   {

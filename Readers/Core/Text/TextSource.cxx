@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/PathChecks.h"
 #include "Text/TextSource.h"
 
 #include "Common/Error.h"
@@ -31,7 +32,7 @@ std::string_view Trim(std::string_view text)
 std::string ReadWholeFile(const std::string& file)
 {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || !std::filesystem::is_regular_file(file))
+  if (!stream || !IsFile(file))
   {
     throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
   }
