@@ -7,6 +7,9 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -230,6 +233,38 @@ private:
   bool IsComplete = false;
 };
 
+// Holds a folder against other processes until no output of this one does any more: a second lock would wait
+// for the first, even in one process. Null where the folder cannot be opened.
+std::shared_ptr<void> LockOfFolder(const fs::path& folder)
+{
+  static auto* mutex = new std::mutex;
+  static auto* held = new std::map<std::pair<dev_t, ino_t>, std::weak_ptr<void>>;
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  struct stat status = {};
+  if (descriptor < 0 || fstat(descriptor, &status) != 0)
+  {
+    return nullptr;
+  }
+  const auto closing = [](const int* open)
+  {
+    close(*open);
+    delete open;
+  };
+  const std::shared_ptr<void> lock(new int(descriptor), closing);
+  const std::lock_guard<std::mutex> guard(*mutex);
+  std::weak_ptr<void>& known = (*held)[{ status.st_dev, status.st_ino }];
+  if (std::shared_ptr<void> same = known.lock())
+  {
+    return same;
+  }
+  while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR)
+  {
+    // A signal came while it waited.
+  }
+  known = lock;
+  return lock;
+}
+
 }
 
 AtomicOutput::AtomicOutput(const std::string& target)
@@ -244,23 +279,15 @@ AtomicOutput::AtomicOutput(const std::string& target)
   }
 }
 
-AtomicOutput::~AtomicOutput()
-{
-  if (this->Lock >= 0)
-  {
-    close(this->Lock);
-  }
-}
+AtomicOutput::~AtomicOutput() = default;
 
 void AtomicOutput::Hold()
 {
-  if (this->Lock < 0 && !this->IsStream)
+  const fs::path folder = ParentOf(this->Target);
+  // A work folder of this process is locked, and no other process writes there.
+  if (!this->Lock && !this->IsStream && !IsOwnWorkFolder(folder))
   {
-    this->Lock = open(ParentOf(this->Target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    while (this->Lock >= 0 && flock(this->Lock, LOCK_EX) != 0 && errno == EINTR)
-    {
-      // A signal came while it waited.
-    }
+    this->Lock = LockOfFolder(folder);
   }
 }
 

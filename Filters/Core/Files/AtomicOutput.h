@@ -6,6 +6,7 @@
 #include "Files/WorkFolder.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace freespace
@@ -69,7 +70,7 @@ private:
   std::filesystem::path Target;
   bool IsStream; ///< whether the target is no file, but takes bytes
   WorkFolder Folder;
-  int Lock = -1; ///< an open file, where the target's folder is held
+  std::shared_ptr<void> Lock; ///< where the target's folder is held
 };
 
 }

@@ -113,6 +113,11 @@ WorkFolder::~WorkFolder()
   }
 }
 
+bool IsOwnWorkFolder(const fs::path& folder)
+{
+  return OwnerOf(folder) == getpid();
+}
+
 std::unique_lock<std::mutex> HoldWorkFolders()
 {
   return std::unique_lock<std::mutex>(Folders().moving);

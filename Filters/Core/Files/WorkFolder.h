@@ -28,6 +28,9 @@ private:
   int Lock = -1;
 };
 
+/// Whether a folder is a work folder of this process, by its name.
+bool IsOwnWorkFolder(const std::filesystem::path& folder);
+
 /// Held while files move to their places, which RemoveWorkFolders waits for.
 std::unique_lock<std::mutex> HoldWorkFolders();
 

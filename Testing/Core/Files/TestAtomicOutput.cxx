@@ -256,3 +256,22 @@ TEST(AtomicOutput, FirstFreePart)
   fs::remove(folder.Path("maps/maps_0.vtp"));
   EXPECT_EQ(output.FirstFreePart(1), 0);
 }
+
+// One process may have several outputs in a folder, and outputs in a work folder, which it holds itself.
+TEST(AtomicOutput, OutputsOfOneProcessDoNotWaitForEachOther)
+{
+  const TemporaryFolder folder;
+  AtomicOutput first(folder.Path("first"));
+  first.Write("1", 1);
+  first.Commit();
+  AtomicOutput second(folder.Path("second"));
+  second.Write("2", 1);
+  second.Commit();
+  const WorkFolder work(folder.Path(""));
+  const std::string inWork = (work.Path() / "third").string();
+  AtomicOutput third(inWork);
+  third.Write("3", 1);
+  third.Commit();
+  EXPECT_EQ(
+    Content(folder.Path("first")) + Content(folder.Path("second")) + Content(inWork), "123");
+}
