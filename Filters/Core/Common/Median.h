@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace freespace
@@ -17,6 +18,13 @@ Value Median(std::vector<Value> values)
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The same; `without` where there are no values.
+template <typename Value>
+Value MedianOr(std::vector<Value> values, Value without)
+{
+  return values.empty() ? without : Median(std::move(values));
 }
 
 }

@@ -130,9 +130,12 @@ DisparityMap TriangulateView(
   const std::vector<View>& views, std::size_t index, const DelaunayDisparityOptions& options)
 {
   options.Check();
-  const FeatureCloud cloud(views);
-  return TriangulateOne(views[index], static_cast<int>(index),
-    { cloud, PartnerViews(views, options.partners)[index] }, options, NeverCancelled);
+  const bool hasOthers = options.minimumDisparity;
+  const FeatureCloud cloud(hasOthers ? views : std::vector<View>());
+  const std::vector<int> partners =
+    hasOthers ? PartnerViews(views, options.partners)[index] : std::vector<int>();
+  return TriangulateOne(
+    views[index], static_cast<int>(index), { cloud, partners }, options, NeverCancelled);
 }
 
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
@@ -143,7 +146,9 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   std::vector<double> work;
   std::transform(views.begin(), views.end(), std::back_inserter(work),
     [](const View& view) { return static_cast<double>(view.points.size()); });
-  const std::vector<std::vector<int>> partners = PartnerViews(views, options.partners);
+  const std::vector<std::vector<int>> partners = options.minimumDisparity
+    ? PartnerViews(views, options.partners)
+    : std::vector<std::vector<int>>(views.size());
   std::vector<DisparityMap> maps(views.size());
   ParallelForWithProgress(work, parallelFor, progress,
     [&](std::size_t v, const CancellationFlag& stop)

@@ -69,12 +69,34 @@ private:
 
 FeatureCloud::FeatureCloud(const std::vector<View>& views, const CancellationFlag& stop)
 {
+  const std::size_t own = this->TakeDistinct(views, stop);
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    std::size_t end = begin;
+    while (end < own && this->Features[end].sourceView == static_cast<int>(v))
+    {
+      ++end;
+    }
+    this->FirstBox.push_back(this->Boxes.size());
+    this->Split(begin, end, stop);
+    begin = end;
+  }
+  this->FirstBox.push_back(this->Boxes.size());
+  this->Split(own, this->Features.size(), stop);
+}
+
+// Takes the distinct features of the views: first those of one view alone, by view, whose number it returns,
+// then those that several views share.
+std::size_t FeatureCloud::TakeDistinct(const std::vector<View>& views, const CancellationFlag& stop)
+{
   std::size_t count = 0;
   for (const View& view : views)
   {
     count += view.points.size();
   }
   PointSet known(count);
+  std::vector<Feature> distinct;
   std::vector<char> isShared;
   for (std::size_t v = 0; v < views.size(); ++v)
   {
@@ -85,45 +107,30 @@ FeatureCloud::FeatureCloud(const std::vector<View>& views, const CancellationFla
       {
         continue;
       }
-      this->Features.push_back({ point, static_cast<int>(v) });
-      isShared.push_back(0);
-      const std::size_t place = known.Insert(this->Features);
-      if (place + 1 < this->Features.size())
+      distinct.push_back({ point, static_cast<int>(v) });
+      const std::size_t place = known.Insert(distinct);
+      if (place < isShared.size())
       {
-        isShared[place] |= this->Features[place].sourceView != static_cast<int>(v);
-        this->Features.pop_back();
-        isShared.pop_back();
+        isShared[place] |= distinct[place].sourceView != static_cast<int>(v);
+        distinct.pop_back();
+      }
+      else
+      {
+        isShared.push_back(0);
       }
     }
   }
-  this->MoveBack(isShared);
-  std::size_t begin = 0;
-  for (std::size_t v = 0; v <= views.size(); ++v)
+  for (const char taken : { 0, 1 })
   {
-    this->FirstBox.push_back(this->Boxes.size());
-    std::size_t end = v < views.size() ? begin : this->Features.size();
-    while (v < views.size() && end < this->OwnFeatures &&
-      this->Features[end].sourceView == static_cast<int>(v))
+    for (std::size_t i = 0; i < distinct.size(); ++i)
     {
-      ++end;
+      if (isShared[i] == taken)
+      {
+        this->Features.push_back(distinct[i]);
+      }
     }
-    this->Split(begin, end, stop);
-    begin = end;
   }
-}
-
-// Moves the features that several views share behind the others.
-void FeatureCloud::MoveBack(const std::vector<char>& isShared)
-{
-  std::vector<Feature> own, shared;
-  own.reserve(this->Features.size());
-  for (std::size_t i = 0; i < this->Features.size(); ++i)
-  {
-    (isShared[i] ? shared : own).push_back(this->Features[i]);
-  }
-  this->OwnFeatures = own.size();
-  own.insert(own.end(), shared.begin(), shared.end());
-  this->Features = std::move(own);
+  return static_cast<std::size_t>(std::count(isShared.begin(), isShared.end(), 0));
 }
 
 // Halves the longest side of the points' box until few are left.

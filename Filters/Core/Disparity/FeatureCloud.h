@@ -33,19 +33,20 @@ public:
   template <typename Visitor>
   void VisitSeen(const Camera& camera, Visitor&& visit) const
   {
-    this->VisitBoxes(camera, 0, this->Boxes.size(), visit);
+    this->VisitBoxes(Frustum(camera), 0, this->Boxes.size(), visit);
   }
 
   /// The same for the features of some views alone, and those that several views share.
   template <typename Visitor>
   void VisitSeen(const Camera& camera, const std::vector<int>& views, Visitor&& visit) const
   {
+    const Frustum frustum(camera);
     for (const int view : views)
     {
       const std::size_t v = static_cast<std::size_t>(view);
-      this->VisitBoxes(camera, this->FirstBox[v], this->FirstBox[v + 1], visit);
+      this->VisitBoxes(frustum, this->FirstBox[v], this->FirstBox[v + 1], visit);
     }
-    this->VisitBoxes(camera, this->FirstBox.back(), this->Boxes.size(), visit);
+    this->VisitBoxes(frustum, this->FirstBox.back(), this->Boxes.size(), visit);
   }
 
 private:
@@ -69,9 +70,9 @@ private:
   };
 
   template <typename Visitor>
-  void VisitBoxes(const Camera& camera, std::size_t first, std::size_t last, Visitor&& visit) const
+  void VisitBoxes(
+    const Frustum& frustum, std::size_t first, std::size_t last, Visitor&& visit) const
   {
-    const Frustum frustum(camera);
     for (std::size_t b = first; b < last; ++b)
     {
       const Box& box = this->Boxes[b];
@@ -85,13 +86,12 @@ private:
     }
   }
 
-  void MoveBack(const std::vector<char>& isShared);
+  std::size_t TakeDistinct(const std::vector<View>& views, const CancellationFlag& stop);
   void Split(std::size_t begin, std::size_t end, const CancellationFlag& stop);
 
-  std::vector<Feature> Features;     // by view; those that several share last
-  std::size_t OwnFeatures = 0;       // of one view
-  std::vector<Box> Boxes;            // the same
-  std::vector<std::size_t> FirstBox; // of each view, and of what several share
+  std::vector<Feature> Features;     // by view; those that several views share last
+  std::vector<Box> Boxes;            // in the order of their features
+  std::vector<std::size_t> FirstBox; // of each view, then of what several views share
 };
 
 }

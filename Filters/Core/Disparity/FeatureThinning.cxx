@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <unordered_map>
+#include <map>
+#include <utility>
 
 namespace freespace
 {
@@ -19,7 +20,6 @@ namespace
 struct Group
 {
   double disparity = 0; // of the first
-  int next = -1;        // group of the same cell
   int count = 0;
   double weights = 0;
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); // weighted sums
@@ -46,7 +46,7 @@ public:
     std::vector<double> known;
     std::copy_if(view.deviations.begin(), view.deviations.end(), std::back_inserter(known),
       [](double deviation) { return deviation > 0; });
-    this->Typical = known.empty() ? 1 : Median(std::move(known));
+    this->Typical = MedianOr(std::move(known), 1.0);
   }
 
   View Thin()
@@ -83,34 +83,30 @@ private:
     {
       return;
     }
-    const int group = this->FindGroup(pixel, disparity);
-    this->GroupOf[feature] = group;
+    const std::size_t group = this->FindGroup(pixel, disparity);
+    this->GroupOf[feature] = static_cast<int>(group);
     const double known = this->Given.deviations.empty() ? 0 : this->Given.deviations[feature];
-    this->Groups[static_cast<std::size_t>(group)].Add(
-      pixel, disparity, known > 0 ? known : this->Typical);
+    this->Groups[group].Add(pixel, disparity, known > 0 ? known : this->Typical);
   }
 
   // The group of a pixel and disparity, a new one where there is none.
-  int FindGroup(const Eigen::Vector2d& pixel, double disparity)
+  std::size_t FindGroup(const Eigen::Vector2d& pixel, double disparity)
   {
     const Eigen::Vector2d cell = (pixel / this->Options.spacing).array().floor();
-    // One more than the camera's columns: features may lie a little outside.
-    const double columns = std::ceil(this->Given.camera.width / this->Options.spacing) + 1;
-    const auto known = this->FirstOfCell.emplace(cell.y() * columns + cell.x(), -1).first;
-    int* link = &known->second;
-    while (*link >= 0)
-    {
-      Group& group = this->Groups[static_cast<std::size_t>(*link)];
-      if (std::abs(group.disparity - disparity) <= this->Options.depthTolerance * group.disparity)
+    std::vector<std::size_t>& groups = this->GroupsOfCell[{ cell.x(), cell.y() }];
+    const auto known = std::find_if(groups.begin(), groups.end(),
+      [&](std::size_t g)
       {
-        return *link;
-      }
-      link = &group.next;
+        const double first = this->Groups[g].disparity;
+        return std::abs(first - disparity) <= this->Options.depthTolerance * first;
+      });
+    if (known != groups.end())
+    {
+      return *known;
     }
-    *link = static_cast<int>(this->Groups.size());
-    const int added = *link; // the link may move with the groups
+    groups.push_back(this->Groups.size());
     this->Groups.emplace_back().disparity = disparity;
-    return added;
+    return groups.back();
   }
 
   void JoinEdges(View& thin) const
@@ -133,7 +129,7 @@ private:
   double Typical = 1;       // deviation, of features about which nothing is known
   std::vector<int> GroupOf; // per feature
   std::vector<Group> Groups;
-  std::unordered_map<double, int> FirstOfCell; // by the cell's number
+  std::map<std::pair<double, double>, std::vector<std::size_t>> GroupsOfCell; // by column and row
 };
 
 }

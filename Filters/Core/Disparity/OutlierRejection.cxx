@@ -159,7 +159,7 @@ std::vector<char> SupportedPoints(
   const DisparityMap& map, const OutlierRejectionOptions& options, const CancellationFlag& stop)
 {
   const std::vector<double> lack = LackOfSupport(map, options, stop);
-  const double typical = lack.empty() ? 0 : Median(lack);
+  const double typical = MedianOr(lack, 0.0);
   const double most = std::max(LeastDisagreement * options.noise, Untypical * typical);
   std::vector<char> supported(lack.size());
   std::transform(lack.begin(), lack.end(), supported.begin(),

@@ -32,7 +32,7 @@ Place PlaceOf(const View& view)
         values.push_back(point[axis]);
       }
     }
-    place[3 + axis] = values.empty() ? place[axis] : Median(std::move(values));
+    place[3 + axis] = MedianOr(std::move(values), place[axis]);
   }
   return place;
 }

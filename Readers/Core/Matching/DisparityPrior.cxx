@@ -25,7 +25,7 @@ DisparityPrior::DisparityPrior(
   }
   for (std::vector<double>& cell : cells)
   {
-    this->Disparity.push_back(cell.empty() ? 0 : Median(std::move(cell)));
+    this->Disparity.push_back(MedianOr(std::move(cell), 0.0));
   }
   this->SpreadToEmptyCells();
 }

@@ -225,7 +225,7 @@ private:
         residuals.push_back(this->Residual[i]);
       }
     }
-    return residuals.empty() ? 0 : Median(std::move(residuals));
+    return MedianOr(std::move(residuals), 0.0);
   }
 
   // From deviations where edges are off by a pixel. What the neighbours of a token have in common, such as

@@ -2,6 +2,7 @@
 #include "Refinement/BundleAdjustment.h"
 
 #include "Common/Error.h"
+#include "Common/Median.h"
 
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
@@ -96,17 +97,6 @@ struct FocalLengthChange
   double weight;
 };
 
-double Median(std::vector<double> values)
-{
-  if (values.empty())
-  {
-    return 0;
-  }
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool IsConfirmed(const EdgeTrack& track)
 {
   return track.observations.size() >= 3;
@@ -138,11 +128,11 @@ public:
     constexpr int pointIterations = 5;            // two unknowns each
     BundleAdjustmentSummary summary;
     this->Solve(coarse, false, pointIterations);
-    summary.residualBefore = Median(this->Distances());
+    summary.residualBefore = MedianOr(this->Distances(), 0.0);
     this->Solve(coarse, true, this->Options.iterations / 2);
-    this->Solve(
-      std::max(finest, perMedian * Median(this->Distances())), true, this->Options.iterations);
-    summary.residualAfter = Median(this->Distances());
+    this->Solve(std::max(finest, perMedian * MedianOr(this->Distances(), 0.0)), true,
+      this->Options.iterations);
+    summary.residualAfter = MedianOr(this->Distances(), 0.0);
     this->MoveCameras();
     summary.motion = this->ImageMotion();
     return summary;
@@ -165,7 +155,7 @@ private:
     }
     for (std::size_t camera = 0; camera < this->Given.size(); ++camera)
     {
-      const double depth = Median(std::move(depths[camera]));
+      const double depth = MedianOr(std::move(depths[camera]), 0.0);
       this->Depths.push_back(depth > 0 ? depth : 1);
     }
   }
@@ -342,10 +332,10 @@ private:
     {
       if (!motion.empty())
       {
-        medians.push_back(Median(std::move(motion)));
+        medians.push_back(MedianOr(std::move(motion), 0.0));
       }
     }
-    return Median(std::move(medians));
+    return MedianOr(std::move(medians), 0.0);
   }
 
   const std::vector<Camera>& Given;

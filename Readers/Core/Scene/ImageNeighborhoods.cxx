@@ -198,8 +198,7 @@ double ImageNeighborhoods::SceneDepth(std::size_t i) const
       }
     }
   }
-  return depths.empty() ? nearest / std::tan(this->Options.preferredAngle * radian)
-                        : Median(std::move(depths));
+  return MedianOr(std::move(depths), nearest / std::tan(this->Options.preferredAngle * radian));
 }
 
 // A grid over the picture at the depth of the scene.

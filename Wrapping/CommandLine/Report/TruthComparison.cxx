@@ -73,7 +73,7 @@ void AddHits(const TriangleMesh& surface, const TriangleMesh& truth, const Camer
 
 double MedianOrNaN(std::vector<double> values)
 {
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(std::move(values));
+  return MedianOr(std::move(values), std::numeric_limits<double>::quiet_NaN());
 }
 
 // The share of points that are nearer to a surface than each limit; those that are not finite, where

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -454,14 +455,12 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
   ParallelForWithProgress(work, parallelFor, progress.Part(0.4, 1.0),
     [&](std::size_t v, const CancellationFlag& stop)
     {
+      std::vector<int> compared;
+      std::set_intersection(overlapping[v].begin(), overlapping[v].end(), partners[v].begin(),
+        partners[v].end(), std::back_inserter(compared));
       BackgroundContinuer::Others others;
-      for (int other : overlapping[v])
-      {
-        if (std::binary_search(partners[v].begin(), partners[v].end(), other))
-        {
-          others.push_back(bridged[other].get());
-        }
-      }
+      std::transform(compared.begin(), compared.end(), std::back_inserter(others),
+        [&](int other) { return bridged[static_cast<std::size_t>(other)].get(); });
       std::vector<int> withOwn = partners[v];
       withOwn.insert(
         std::lower_bound(withOwn.begin(), withOwn.end(), static_cast<int>(v)), static_cast<int>(v));

@@ -104,13 +104,7 @@ double SurfaceFitter::FindMedianEdge() const
   {
     lengths.push_back((this->Points[a] - this->Points[b]).norm());
   }
-  if (lengths.empty())
-  {
-    return 0;
-  }
-  const auto middle = lengths.begin() + lengths.size() / 2;
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return MedianOr(std::move(lengths), 0.0);
 }
 
 double SurfaceFitter::FindTypicalDeviation() const
@@ -123,7 +117,7 @@ double SurfaceFitter::FindTypicalDeviation() const
       known.push_back(feature.deviation);
     }
   }
-  return known.empty() ? 0 : Median(std::move(known));
+  return MedianOr(std::move(known), 0.0);
 }
 
 // In units of the typical one, which a feature has about which nothing is known.
@@ -178,10 +172,8 @@ double SurfaceFitter::CommonDeviation() const
   {
     return 1;
   }
-  const auto middle = ratios.begin() + ratios.size() / 2;
-  std::nth_element(ratios.begin(), middle, ratios.end());
   constexpr double least = 1e-5;
-  return std::max(least, DeviationOfMedian * *middle);
+  return std::max(least, DeviationOfMedian * Median(std::move(ratios)));
 }
 
 // The directions that the normals around each vertex span.
