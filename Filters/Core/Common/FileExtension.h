@@ -19,6 +19,13 @@ inline std::string LowerCaseExtension(const std::string& fileName)
   return ending;
 }
 
+/// Whether a file name ends in some text, case and all: "dino_par.txt" in "_par.txt".
+inline bool EndsIn(const std::string& fileName, const std::string& ending)
+{
+  return fileName.size() >= ending.size() &&
+    fileName.compare(fileName.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 }
 
 #endif

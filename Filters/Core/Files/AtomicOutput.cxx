@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -235,33 +234,23 @@ private:
 
 // Holds a folder against other processes until no output of this one does any more: a second lock would wait
 // for the first, even in one process. Null where the folder cannot be opened.
-std::shared_ptr<void> LockOfFolder(const fs::path& folder)
+std::shared_ptr<FileLock> LockOfFolder(const fs::path& folder)
 {
   static auto* mutex = new std::mutex;
-  static auto* held = new std::map<std::pair<dev_t, ino_t>, std::weak_ptr<void>>;
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  static auto* held = new std::map<std::pair<dev_t, ino_t>, std::weak_ptr<FileLock>>;
   struct stat status = {};
-  if (descriptor < 0 || fstat(descriptor, &status) != 0)
+  if (stat(folder.c_str(), &status) != 0)
   {
     return nullptr;
   }
-  const auto closing = [](const int* open)
-  {
-    close(*open);
-    delete open;
-  };
-  const std::shared_ptr<void> lock(new int(descriptor), closing);
   const std::lock_guard<std::mutex> guard(*mutex);
-  std::weak_ptr<void>& known = (*held)[{ status.st_dev, status.st_ino }];
-  if (std::shared_ptr<void> same = known.lock())
+  std::weak_ptr<FileLock>& known = (*held)[{ status.st_dev, status.st_ino }];
+  std::shared_ptr<FileLock> lock = known.lock();
+  if (!lock)
   {
-    return same;
+    lock = std::make_shared<FileLock>(FileLock::Wait(folder));
+    known = lock;
   }
-  while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR)
-  {
-    // A signal came while it waited.
-  }
-  known = lock;
   return lock;
 }
 
@@ -278,8 +267,6 @@ AtomicOutput::AtomicOutput(const std::string& target)
       " is not writable.");
   }
 }
-
-AtomicOutput::~AtomicOutput() = default;
 
 void AtomicOutput::Hold()
 {

@@ -3,6 +3,7 @@
 #define freespace_AtomicOutput_h
 
 #include "Common/Error.h"
+#include "Files/FileLock.h"
 #include "Files/WorkFolder.h"
 
 #include <filesystem>
@@ -33,8 +34,6 @@ public:
   explicit AtomicOutput(const std::string& target);
   AtomicOutput(const AtomicOutput&) = delete;
   AtomicOutput& operator=(const AtomicOutput&) = delete;
-
-  ~AtomicOutput();
 
   /// Lets no other process change outputs in the target's folder until this one is committed or destroyed;
   /// waits for one that does. Where the file system has no locks, nothing is held.
@@ -70,7 +69,7 @@ private:
   std::filesystem::path Target;
   bool IsStream; ///< whether the target is no file, but takes bytes
   WorkFolder Folder;
-  std::shared_ptr<void> Lock; ///< where the target's folder is held
+  std::shared_ptr<FileLock> Lock; ///< where the target's folder is held
 };
 
 }

@@ -9,10 +9,8 @@
 #include <set>
 #include <system_error>
 
-#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace freespace
@@ -49,17 +47,6 @@ std::optional<pid_t> OwnerOf(const fs::path& folder)
   return ParseNumber<pid_t>(name.substr(begin, name.find('-', begin) - begin));
 }
 
-int LockOf(const fs::path& folder)
-{
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-  {
-    close(descriptor);
-    return -1;
-  }
-  return descriptor;
-}
-
 // A process of another machine is not seen here, but holds its lock.
 void RemoveThoseOfTheDead(const fs::path& parent)
 {
@@ -72,11 +59,9 @@ void RemoveThoseOfTheDead(const fs::path& parent)
     {
       continue;
     }
-    const int lock = LockOf(entry.path());
-    if (lock >= 0)
+    if (const FileLock lock = FileLock::Try(entry.path()); lock.IsHeld())
     {
       fs::remove_all(entry.path(), error);
-      close(lock);
     }
   }
 }
@@ -92,7 +77,7 @@ WorkFolder::WorkFolder(const fs::path& parent)
   if (mkdtemp(pattern.data()))
   {
     this->Folder = pattern;
-    this->Lock = LockOf(this->Folder);
+    this->Lock = FileLock::Try(this->Folder);
     registry.folders.insert(this->Folder);
   }
 }
@@ -106,10 +91,6 @@ WorkFolder::~WorkFolder()
   {
     fs::remove_all(this->Folder, ignored);
     registry.folders.erase(this->Folder);
-  }
-  if (this->Lock >= 0)
-  {
-    close(this->Lock);
   }
 }
 

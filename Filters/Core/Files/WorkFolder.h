@@ -2,6 +2,8 @@
 #ifndef freespace_WorkFolder_h
 #define freespace_WorkFolder_h
 
+#include "Files/FileLock.h"
+
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -25,7 +27,7 @@ public:
 
 private:
   std::filesystem::path Folder;
-  int Lock = -1;
+  FileLock Lock;
 };
 
 /// Whether a folder is a work folder of this process, by its name.

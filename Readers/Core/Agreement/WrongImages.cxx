@@ -59,7 +59,7 @@ public:
     , Options(options)
     , Tracks(tracks)
   {
-    this->Matching.tolerance = options.tolerance;
+    this->Matching.tolerance = options.matching.tolerance;
   }
 
   std::vector<ImageAgreement> Measure(
@@ -79,11 +79,11 @@ public:
       [&](std::size_t i, const CancellationFlag& stop)
       {
         const ClusterMatches matches = MatchCluster(this->Edges, this->Images, *unknown[i],
-          this->Matching, this->Options.tokensPerImage, stop);
+          this->Matching, this->Options.matching.tokensPerImage, stop);
         found[i] = AgreementOf(matches);
         if (this->Tracks)
         {
-          tracks[i] = TracksOfCluster(matches, this->Options.tracksPerImage);
+          tracks[i] = TracksOfCluster(matches, this->Options.matching.tracksPerImage);
         }
       });
     for (std::size_t i = 0; i < unknown.size(); ++i)
@@ -115,10 +115,10 @@ private:
 
 void WrongImageOptions::Check() const
 {
-  if (this->neighbors < 2 || this->rounds < 1 || this->tokensPerImage < 1 || !(this->tolerance > 0))
+  this->matching.Check();
+  if (this->rounds < 1)
   {
-    throw Error("Looking for wrong images takes two neighbours, one round, some tokens and a "
-                "positive tolerance.");
+    throw Error("Looking for wrong images takes one round at least.");
   }
 }
 
@@ -132,7 +132,7 @@ std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& 
   const auto judge = [&](const std::set<std::string>& without, const Progress& part)
   {
     const auto clusters = ClustersForRefinement(
-      WithoutImages(scene, without), WithoutImages(model, without), options.neighbors);
+      WithoutImages(scene, without), WithoutImages(model, without), options.matching.neighbors);
     return FindAgreement(images.size(), meter.Measure(clusters, parallelFor, part));
   };
   std::set<std::string> suspects;

@@ -6,6 +6,7 @@
 #include "Common/Progress.h"
 #include "Matching/MatcherOptions.h"
 #include "Refinement/EdgeTracks.h"
+#include "Refinement/NeighborMatching.h"
 #include "Scene/Scene.h"
 #include "Stereo/EdgeStore.h"
 
@@ -19,12 +20,7 @@ namespace freespace
 /// How images that do not fit their cameras are looked for.
 struct WrongImageOptions
 {
-  int neighbors = 4; ///< images that an image's edges are matched with; >= 2
-  double tolerance =
-    1.5; ///< of a third image's confirmation, pixels: as far as right cameras may be
-         ///< off; > 0
-  std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
-  std::size_t tracksPerImage = 400;   ///< that are kept of the matches; > 0
+  NeighborMatchingOptions matching;
   int rounds = 3; ///< at most: without the wrong ones the others have better neighbours; > 0
 
   /// Throws Error when a field is out of its range.

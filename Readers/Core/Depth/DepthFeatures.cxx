@@ -199,15 +199,12 @@ View FeaturesOfDepthMap(
   View view;
   view.name = view.imageFile = image.file;
   view.camera = image.camera;
-  const Eigen::Matrix3d inverse = image.camera.K.inverse();
-  const Eigen::Matrix3d worldFromCamera = image.camera.R.transpose();
   for (std::size_t i = 0; i < depths.Depths.size(); ++i)
   {
     if (choice.Get()[i])
     {
-      const Eigen::Vector3d ray = inverse * depths.Pixels[i].homogeneous();
       const double depth = depths.Depths[i];
-      view.points.push_back(worldFromCamera * (ray / ray.z() * depth - image.camera.t));
+      view.points.push_back(view.camera.Unproject(depths.Pixels[i], depth));
       view.imagePoints.push_back(depths.Pixels[i]);
       view.deviations.push_back(options.DeviationAt(depth) / (depth * depth));
     }

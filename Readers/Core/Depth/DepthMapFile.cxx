@@ -138,13 +138,14 @@ DepthMap ReadPfm(const std::string& file)
 
 DepthMap ReadPng(const std::string& file)
 {
-  ReadWholeFile(file); // tells when it is missing
+  std::string content = ReadWholeFile(file);
   const auto fail = [&](const char* fault)
   { throw Error("Cannot read the depth map " + file + ": " + fault + "."); };
   cv::Mat pixels;
   try
   {
-    pixels = cv::imread(file, cv::IMREAD_UNCHANGED);
+    pixels = cv::imdecode(
+      cv::Mat(1, static_cast<int>(content.size()), CV_8UC1, content.data()), cv::IMREAD_UNCHANGED);
   }
   catch (const cv::Exception&)
   {

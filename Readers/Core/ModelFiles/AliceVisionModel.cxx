@@ -165,15 +165,9 @@ void ReadStructure(const JsonNode& root, const Ids& images, ModelBuilder& model)
   }
 }
 
-struct Pose
+std::unordered_map<std::uint64_t, CenteredPose> ReadPoses(const JsonNode& root)
 {
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d center;
-};
-
-std::unordered_map<std::uint64_t, Pose> ReadPoses(const JsonNode& root)
-{
-  std::unordered_map<std::uint64_t, Pose> poses;
+  std::unordered_map<std::uint64_t, CenteredPose> poses;
   for (const JsonNode& pose : root.At("poses").Elements())
   {
     const JsonNode transform = pose.At("pose").At("transform");
@@ -188,7 +182,7 @@ std::unordered_map<std::uint64_t, Pose> ReadPoses(const JsonNode& root)
 struct PlacedView
 {
   JsonNode node;
-  Pose pose;
+  CenteredPose pose;
   std::uint32_t camera;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ModelFiles/ForeignModel.h"
 
+#include "Common/FileExtension.h"
+#include "Text/TextSource.h"
+
 #include <filesystem>
-#include <fstream>
 
 namespace freespace
 {
@@ -40,18 +42,10 @@ constexpr ForeignKind kinds[] = {
   { ".vtm", "features or disparity maps of freespace, not a camera model" },
 };
 
-bool EndsWith(const std::string& name, const std::string& ending)
-{
-  return name.size() >= ending.size() &&
-    name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 // OpenSfM's list of reconstructions.
 bool IsOpenSfm(const fs::path& path)
 {
-  char begin[1024] = {};
-  std::ifstream(path).read(begin, sizeof(begin) - 1);
-  const std::string text(begin);
+  const std::string text = BeginOfFile(path.string(), 1024);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '[' &&
     (text.find("\"cameras\"") != std::string::npos || text.find("\"shots\"") != std::string::npos);
@@ -68,14 +62,14 @@ std::string DescribeForeignModel(const std::string& path)
     const bool isKapture = fs::exists(fs::path(path) / "sensors" / "sensors.txt", ignored);
     return isKapture ? "it is a kapture: convert it with kapture_export_colmap.py" : "";
   }
-  if (EndsWith(name, ".json") && IsOpenSfm(path))
+  if (EndsIn(name, ".json") && IsOpenSfm(path))
   {
     return "it is a reconstruction of OpenSfM or OpenDroneMap: convert it with opensfm "
            "export_colmap";
   }
   for (const ForeignKind& kind : kinds)
   {
-    if (EndsWith(name, kind.ending))
+    if (EndsIn(name, kind.ending))
     {
       return "it is " + std::string(kind.text);
     }

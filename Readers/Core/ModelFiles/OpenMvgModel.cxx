@@ -15,12 +15,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-struct Pose
-{
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d center;
-};
-
 // What a shared pointer of the cereal library points to; base classes may stand in value0.
 JsonNode DataOf(const JsonNode& value)
 {
@@ -108,9 +102,9 @@ std::unordered_map<std::uint64_t, std::uint32_t> ReadIntrinsics(
   return cameras;
 }
 
-std::unordered_map<std::uint64_t, Pose> ReadPoses(const JsonNode& root)
+std::unordered_map<std::uint64_t, CenteredPose> ReadPoses(const JsonNode& root)
 {
-  std::unordered_map<std::uint64_t, Pose> poses;
+  std::unordered_map<std::uint64_t, CenteredPose> poses;
   for (const JsonNode& element : root.At("extrinsics").Elements())
   {
     const std::vector<double> r = element.At("value").At("rotation").Numbers(9);

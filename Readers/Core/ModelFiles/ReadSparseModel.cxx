@@ -2,6 +2,7 @@
 #include "ModelFiles/ReadSparseModel.h"
 
 #include "Common/Error.h"
+#include "Common/FileExtension.h"
 #include "Files/PathChecks.h"
 #include "ModelFiles/AliceVisionModel.h"
 #include "ModelFiles/BundlerModel.h"
@@ -13,6 +14,7 @@
 #include "ModelFiles/TransformsModel.h"
 #include "SparseModel/ColmapModel.h"
 #include "SparseModel/FindSparseModel.h"
+#include "Text/TextSource.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -27,12 +29,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-bool EndsWith(const std::string& name, const std::string& ending)
-{
-  return name.size() >= ending.size() &&
-    name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 // Finds what a JSON file is by the first key that tells, and reads no further.
 class JsonKind : public nlohmann::json_sax<nlohmann::json>
@@ -98,9 +94,7 @@ ModelKind KindOfJson(const fs::path& file)
 
 bool IsMetashape(const fs::path& file)
 {
-  char begin[400] = {};
-  std::ifstream(file).read(begin, sizeof(begin) - 1);
-  return std::string(begin).find("<document") != std::string::npos;
+  return BeginOfFile(file.string(), 400).find("<document") != std::string::npos;
 }
 
 ModelKind KindOfFile(const fs::path& file)
@@ -110,7 +104,7 @@ ModelKind KindOfFile(const fs::path& file)
   return ending == ".nvm"                       ? ModelKind::Nvm
     : ending == ".out"                          ? ModelKind::Bundler
     : ending == ".sfm"                          ? ModelKind::AliceVision
-    : EndsWith(name, "_par.txt")                ? ModelKind::Middlebury
+    : EndsIn(name, "_par.txt")                  ? ModelKind::Middlebury
     : ending == ".json" && name != "scene.json" ? KindOfJson(file)
     : ending == ".xml" && IsMetashape(file)     ? ModelKind::Metashape
                                                 : ModelKind::None;
@@ -133,7 +127,7 @@ fs::path ModelIn(const fs::path& folder)
     const std::string name = entry.path().filename().string();
     for (const char* ending : { ".nvm", ".out", ".sfm", "_par.txt" })
     {
-      if (EndsWith(name, ending) && entry.is_regular_file(ignored))
+      if (EndsIn(name, ending) && entry.is_regular_file(ignored))
       {
         found.push_back(entry.path());
       }

@@ -43,8 +43,8 @@ std::vector<EdgeTrack> MatchAll(EdgeStore& edges, const std::vector<CalibratedIm
         return;
       }
       const ClusterMatches matches =
-        MatchCluster(edges, images, clusters[i], matching, options.tokensPerImage, stop);
-      found[i] = TracksOfCluster(matches, options.tracksPerImage);
+        MatchCluster(edges, images, clusters[i], matching, options.matching.tokensPerImage, stop);
+      found[i] = TracksOfCluster(matches, options.matching.tracksPerImage);
     });
   std::vector<EdgeTrack> tracks;
   for (std::vector<EdgeTrack>& some : found)
@@ -83,14 +83,10 @@ BundleAdjustmentSummary Adjust(const std::vector<CalibratedImage>& given,
 void CameraRefinementOptions::Check() const
 {
   this->adjustment.Check();
-  if (this->neighbors < 2 || this->rounds < 1)
+  this->matching.Check();
+  if (this->rounds < 1)
   {
-    throw Error("Refining cameras takes two neighbours of each image and one round at least.");
-  }
-  if (!(this->tolerance > 0) || this->tokensPerImage < 1 || this->tracksPerImage < 1)
-  {
-    throw Error(
-      "The tolerance of camera refinement and its numbers of tokens and tracks must be positive.");
+    throw Error("Refining cameras takes one round at least.");
   }
   if (!(this->leastMotion >= 0))
   {
@@ -105,12 +101,13 @@ CameraRefinement RefineCameras(const Scene& scene, const SparseModel& model, Edg
   options.Check();
   const std::vector<CalibratedImage> given = CalibratedImages(model);
   const std::vector<int> lenses = LensesOf(model);
-  const std::vector<Cluster> clusters = ClustersForRefinement(scene, model, options.neighbors);
+  const std::vector<Cluster> clusters =
+    ClustersForRefinement(scene, model, options.matching.neighbors);
   CameraRefinement result;
   result.images = given;
   result.clusters = clusters.size();
   MatcherOptions round = matching;
-  round.tolerance = options.tolerance;
+  round.tolerance = options.matching.tolerance;
   for (int k = 0; k < options.rounds && !clusters.empty(); ++k, round.tolerance /= 2)
   {
     const double begin = double(k) / options.rounds, end = double(k + 1) / options.rounds;

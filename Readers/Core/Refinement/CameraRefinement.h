@@ -6,6 +6,7 @@
 #include "Common/Progress.h"
 #include "Matching/MatcherOptions.h"
 #include "Refinement/BundleAdjustment.h"
+#include "Refinement/NeighborMatching.h"
 #include "Scene/Scene.h"
 #include "Stereo/EdgeStore.h"
 
@@ -20,13 +21,8 @@ namespace freespace
 struct CameraRefinementOptions
 {
   BundleAdjustmentOptions adjustment;
-  int neighbors = 4; ///< images that an image's edges are matched with; >= 2
-  double tolerance =
-    1.5;          ///< of a third image's confirmation before the first adjustment, pixels: as
-                  ///< far as the given cameras may be off; > 0. Half of it in each round after
-  int rounds = 2; ///< of matching and adjusting; > 0
-  std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
-  std::size_t tracksPerImage = 400;   ///< matches that take part in the adjustment; > 0
+  NeighborMatchingOptions matching; ///< half of its tolerance in each round after the first
+  int rounds = 2;                   ///< of matching and adjusting; > 0
   double leastMotion =
     0.12; ///< median motion of the images, pixels, for the cameras to be changed at
           ///< all: the noise of the edges alone moves them by 0.05 to 0.1; >= 0

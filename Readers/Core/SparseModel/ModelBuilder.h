@@ -10,6 +10,13 @@
 namespace freespace
 {
 
+/// A pose as many programs write it.
+struct CenteredPose
+{
+  Eigen::Matrix3d rotation; ///< from world to camera coordinates
+  Eigen::Vector3d center;   ///< of the camera, world
+};
+
 /// The simplest camera model that has OpenCV's coefficients of distortion, k1 k2 p1 p2 k3 k4 k5 k6 or
 /// fewer; without width and height. Only one focal length where fx is fy.
 SparseCamera PerspectiveCamera(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Files/PathChecks.h"
 #include "Text/TextSource.h"
 
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -31,8 +31,12 @@ std::string_view Trim(std::string_view text)
 
 std::string ReadWholeFile(const std::string& file)
 {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || !IsFile(file))
+  std::ifstream stream;
+  if (IsFile(file)) // to open a pipe would wait for its writer
+  {
+    stream.open(file, std::ios::binary | std::ios::ate);
+  }
+  if (!stream.is_open())
   {
     throw Error("Cannot read " + file + ": there is no such file or it is not readable.");
   }
@@ -43,6 +47,19 @@ std::string ReadWholeFile(const std::string& file)
     throw Error("Cannot read " + file + ": the disk failed.");
   }
   return content;
+}
+
+std::string BeginOfFile(const std::string& file, std::size_t most)
+{
+  if (!IsFile(file))
+  {
+    return "";
+  }
+  std::string begin(most, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin;
 }
 
 TextSource::TextSource(const std::string& file, Lines lines)

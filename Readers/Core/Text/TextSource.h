@@ -14,6 +14,9 @@ namespace freespace
 /// The content of a file. Throws Error naming it when it cannot be read.
 std::string ReadWholeFile(const std::string& file);
 
+/// At most so many bytes from the begin of a file, by which its kind is known; empty where it cannot be read.
+std::string BeginOfFile(const std::string& file, std::size_t most);
+
 /// Reads a text file by lines and the fields of a line, which are separated by blanks. A byte order mark of
 /// UTF-8 at its beginning is skipped. Throws Error
 /// naming the file, the line and the fault when the text is not as requested.

@@ -2,6 +2,7 @@
 #include "Batch/BatchFile.h"
 
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -127,13 +128,13 @@ std::vector<BatchScene> FindScenes(const std::vector<std::string>& paths)
   std::set<std::string> names;
   for (const std::string& given : paths)
   {
-    if (!fs::exists(given))
+    if (!IsThere(given))
     {
       throw Error("The scene '" + given + "' does not exist.");
     }
     const fs::path path = fs::canonical(given);
     const fs::path named = path.filename() == "scene.json" ? path.parent_path() : path;
-    const bool isFolder = fs::is_directory(named);
+    const bool isFolder = IsFolder(named);
     scenes.push_back({ path.string(), (isFolder ? named.filename() : named.stem()).string() });
     if (!names.insert(scenes.back().name).second)
     {
@@ -148,7 +149,7 @@ std::vector<std::string> WordsFor(const std::vector<std::string>& step, const Ba
 {
   std::vector<std::string> words = step;
   const fs::path path = scene.path;
-  const std::string folder = fs::is_directory(path) ? scene.path : path.parent_path().string();
+  const std::string folder = IsFolder(path) ? scene.path : path.parent_path().string();
   for (std::string& word : words)
   {
     Replace(word, "{scene}", scene.path);

@@ -2,6 +2,8 @@
 #include "Batch/BatchRun.h"
 
 #include "Common/Error.h"
+#include "Files/FileLock.h"
+#include "Files/PathChecks.h"
 #include "Session/Session.h"
 
 #include <algorithm>
@@ -9,10 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace freespace
 {
@@ -22,31 +20,23 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Keeps others out of a folder while it lives.
-class FolderLock
+/// Keeps other runs out of a folder, which is made where it is not there.
+FileLock LockFolder(const std::string& folder)
 {
-public:
-  explicit FolderLock(const std::string& folder)
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const std::string file = folder + "/.lock";
+  if (!std::ofstream(file, std::ios::app))
   {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    this->File = open((folder + "/.lock").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (this->File < 0)
-    {
-      throw Error("Cannot write into '" + folder + "'.");
-    }
-    if (flock(this->File, LOCK_EX | LOCK_NB) != 0)
-    {
-      throw Error("Another 'freespace run' is at work in '" + folder + "'.");
-    }
+    throw Error("Cannot write into '" + folder + "'.");
   }
-  ~FolderLock() { close(this->File); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-  int File = -1;
-};
+  FileLock lock = FileLock::Try(file);
+  if (!lock.IsHeld())
+  {
+    throw Error("Another 'freespace run' is at work in '" + folder + "'.");
+  }
+  return lock;
+}
 
 std::string LastLine(const std::string& fileName)
 {
@@ -116,13 +106,13 @@ bool BatchRun::IsDone(std::size_t scene, std::size_t step) const
   const std::vector<std::string> words = this->WordsOf(scene, step);
   for (const std::string& output : OutputsOf(words))
   {
-    if (!fs::exists(fs::path(this->FolderOf(scene)) / output))
+    if (!IsThere(fs::path(this->FolderOf(scene)) / output))
     {
       return false;
     }
   }
   std::vector<std::string> inputs;
-  if (fs::is_regular_file(this->Scenes[scene].path))
+  if (IsFile(this->Scenes[scene].path))
   {
     inputs.push_back(this->Scenes[scene].path);
   }
@@ -238,7 +228,7 @@ std::vector<int> BatchRun::Processes() const
 
 std::vector<SceneResult> BatchRun::Run(Session& session)
 {
-  const FolderLock lock(this->Folder);
+  const FileLock lock = LockFolder(this->Folder);
   for (std::size_t scene = 0; scene < this->Scenes.size(); ++scene)
   {
     fs::create_directories(this->FolderOf(scene));

@@ -115,13 +115,7 @@ std::string CsvOf(const std::vector<std::vector<std::string>>& rows)
   {
     for (std::size_t i = 0; i < row.size(); ++i)
     {
-      std::string quoted;
-      for (char c : row[i])
-      {
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
-      }
-      const bool isPlain = row[i].find_first_of(",\"\n") == std::string::npos;
-      text += (i > 0 ? "," : "") + (isPlain ? row[i] : "\"" + quoted + "\"");
+      text += (i > 0 ? "," : "") + CsvCell(row[i]);
     }
     text += "\n";
   }

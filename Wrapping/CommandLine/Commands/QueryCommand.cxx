@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
@@ -46,7 +47,7 @@ std::vector<double> ReadTable(Session& session, const std::string& name, std::si
     opened.open(name);
   }
   std::istream& file = isStandardInput ? std::cin : opened;
-  if (!file || (!isStandardInput && std::filesystem::is_directory(fileName)))
+  if (!file || (!isStandardInput && IsFolder(fileName)))
   {
     throw Error("'" + fileName + "' cannot be read" + (file ? ": it is a folder." : "."));
   }

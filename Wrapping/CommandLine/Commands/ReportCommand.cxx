@@ -4,6 +4,7 @@
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Files/PathChecks.h"
 #include "Output/NewFolder.h"
 #include "Output/SurfaceFiles.h"
 #include "Report/Page/CameraDrawing.h"
@@ -127,7 +128,7 @@ std::vector<CameraGroup> CameraGroups(const Scene& scene)
   for (const CalibratedImage& image : ReadSceneImages(scene))
   {
     cameras[image.file] = image.camera;
-    if (fs::exists(scene.ImagePath(image.file)))
+    if (IsThere(scene.ImagePath(image.file)))
     {
       all.cameras.push_back(image.camera);
     }
@@ -225,7 +226,7 @@ void AddFigures(Session& session, const Settings& settings, const Surroundings& 
 std::string TruthFile(const Settings& settings)
 {
   const fs::path beside = fs::path(settings.scene).parent_path() / "truth" / "surface.ply";
-  return settings.truth.empty() && fs::is_regular_file(beside) ? beside.string() : settings.truth;
+  return settings.truth.empty() && IsFile(beside) ? beside.string() : settings.truth;
 }
 
 vtkSmartPointer<vtkPolyData> ReadTruth(Session& session, const Settings& settings)

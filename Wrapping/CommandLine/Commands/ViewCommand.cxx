@@ -5,6 +5,7 @@
 #include "Common/FileExtension.h"
 #include "Data/ViewBlocks.h"
 #include "Files/FileNames.h"
+#include "Files/PathChecks.h"
 #include "Output/Animation.h"
 #include "Output/NewFolder.h"
 #include "Output/PictureOptions.h"
@@ -172,7 +173,7 @@ bool LooksLikeAFile(const std::string& folder)
 {
   const std::set<std::string> endings = { ".avi", ".flv", ".gif", ".jpeg", ".jpg", ".m4v", ".mkv",
     ".mov", ".mp4", ".mpeg", ".mpg", ".ogg", ".ogv", ".png", ".webm", ".webp", ".wmv" };
-  return !fs::is_directory(folder) && endings.count(LowerCaseExtension(folder)) > 0;
+  return !IsFolder(folder) && endings.count(LowerCaseExtension(folder)) > 0;
 }
 
 void CheckOutput(const Settings& settings)

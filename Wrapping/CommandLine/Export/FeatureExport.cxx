@@ -121,20 +121,6 @@ std::vector<std::string> CommonArrays(vtkMultiBlockDataSet* views)
   return names;
 }
 
-std::string Quoted(const std::string& word)
-{
-  if (word.find_first_of(",\"\n\r") == std::string::npos)
-  {
-    return word;
-  }
-  std::string quoted = "\"";
-  for (char c : word)
-  {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
-}
-
 }
 
 vtkSmartPointer<vtkPolyData> FeaturePoints(vtkMultiBlockDataSet* views)
@@ -190,14 +176,14 @@ std::string FeatureRows(vtkMultiBlockDataSet* views)
   text += isColored ? ",red,green,blue" : "";
   for (const std::string& name : arrays)
   {
-    text += "," + Quoted(name);
+    text += "," + CsvCell(name);
   }
   text += "\n";
   const auto number = [](double value) { return "," + NumberText(value, 17); };
   for (unsigned int i = 0; i < views->GetNumberOfBlocks(); ++i)
   {
     vtkPolyData* block = BlockOf(views, i);
-    const std::string name = Quoted(BlockName(views, i));
+    const std::string name = CsvCell(BlockName(views, i));
     const View view = ViewFromBlock(block, BlockName(views, i));
     for (std::size_t p = 0; p < view.points.size(); ++p)
     {

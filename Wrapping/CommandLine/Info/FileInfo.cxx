@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
+#include "Files/PathChecks.h"
 #include "Images/ImageSize.h"
 #include "Output/SurfaceFiles.h"
 #include "Output/ViewFiles.h"
@@ -27,7 +28,7 @@ using Json = nlohmann::ordered_json;
 bool IsScene(const std::string& path)
 {
   return (LowerCaseExtension(path) == ".json" && !IsSparseModel(path)) ||
-    std::filesystem::is_regular_file(std::filesystem::path(path) / "scene.json");
+    IsFile(std::filesystem::path(path) / "scene.json");
 }
 
 }
@@ -36,7 +37,7 @@ Json InfoOf(Session& session, const std::string& fileName)
 {
   Json info;
   info["file"] = fileName;
-  if (!std::filesystem::exists(fileName))
+  if (!IsThere(fileName))
   {
     throw Error("Cannot read '" + fileName + "': it does not exist.");
   }
@@ -52,7 +53,7 @@ Json InfoOf(Session& session, const std::string& fileName)
   {
     info.update(SceneInfo(fileName));
   }
-  else if (std::filesystem::is_directory(fileName) || IsSparseModel(fileName))
+  else if (IsFolder(fileName) || IsSparseModel(fileName))
   {
     info.update(ModelInfo(fileName));
   }

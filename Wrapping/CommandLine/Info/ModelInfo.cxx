@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Info/FileInfo.h"
-#include "Info/SpreadInfo.h"
+#include "Info/SummaryInfo.h"
 #include "Scene/Scene.h"
 #include "ModelFiles/ReadSparseModel.h"
 
@@ -17,17 +17,6 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
-
-Json BoundsInfo(const Eigen::AlignedBox3d& box)
-{
-  Json bounds = Json::array();
-  for (int i = 0; i < 3 && !box.isEmpty(); ++i)
-  {
-    bounds.push_back(box.min()[i]);
-    bounds.push_back(box.max()[i]);
-  }
-  return bounds;
-}
 
 Json CamerasInfo(const SparseModel& model)
 {

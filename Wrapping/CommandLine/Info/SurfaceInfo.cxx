@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/SurfaceMesh.h"
 #include "Info/FileInfo.h"
+#include "Info/SummaryInfo.h"
 #include "Mesh/SurfaceSummary.h"
 
 #include <vtkCellData.h>
@@ -36,11 +37,7 @@ Json SurfaceInfo(vtkPolyData* surface)
   info["kind"] = "surface";
   info["points"] = summary.points;
   info["triangles"] = summary.triangles;
-  for (int i = 0; i < 3; ++i)
-  {
-    info["bounds"].push_back(summary.bounds.min()[i]);
-    info["bounds"].push_back(summary.bounds.max()[i]);
-  }
+  info["bounds"] = BoundsInfo(summary.bounds);
   info["area"] = summary.area;
   info["components"] = summary.components;
   info["closed"] = summary.IsClosed();

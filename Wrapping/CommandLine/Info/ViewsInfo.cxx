@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/ViewBlocks.h"
 #include "Info/FileInfo.h"
-#include "Info/SpreadInfo.h"
+#include "Info/SummaryInfo.h"
 
 #include <vtkDataArray.h>
 #include <vtkMultiBlockDataSet.h>

@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
+#include "Files/PathChecks.h"
 
 #include <Eigen/Dense>
 
@@ -42,7 +43,7 @@ std::vector<double> NumbersOf(const std::string& text)
 std::array<double, 16> ReadMatrix(const std::string& fileName)
 {
   std::ifstream file(fileName);
-  if (!file || std::filesystem::is_directory(fileName))
+  if (!file || IsFolder(fileName))
   {
     throw Error("'" + fileName + "' cannot be read.");
   }

@@ -3,6 +3,7 @@
 
 #include "Data/ViewBlocks.h"
 #include "Files/FileNames.h"
+#include "Files/PathChecks.h"
 #include "Scene/Scene.h"
 #include "Session/Session.h"
 
@@ -41,7 +42,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> PickViews(
   const std::vector<View> views = ViewsFromBlocks(features);
   for (unsigned int i = 0; i < views.size(); ++i)
   {
-    if (fs::exists(scene.ImagePath(views[i].imageFile)))
+    if (IsThere(scene.ImagePath(views[i].imageFile)))
     {
       there.push_back(i);
     }

@@ -48,6 +48,20 @@ std::string TextTable::Text() const
   return text;
 }
 
+std::string CsvCell(const std::string& word)
+{
+  if (word.find_first_of(",\"\n\r") == std::string::npos)
+  {
+    return word;
+  }
+  std::string quoted = "\"";
+  for (char c : word)
+  {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
 std::string NumberText(double number, int digits)
 {
   std::ostringstream text;

@@ -22,6 +22,9 @@ private:
   std::vector<std::vector<std::string>> Rows;
 };
 
+/// A word as a cell of comma-separated values (RFC 4180): quoted where it has to be.
+std::string CsvCell(const std::string& word);
+
 /// A number with so many significant digits, without trailing zeros.
 std::string NumberText(double number, int digits = 4);
 

@@ -3,6 +3,7 @@
 
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 
 #include <nlohmann/json.hpp>
 
@@ -56,13 +57,13 @@ bool StageRecord::IsCurrent(const std::string& stage, const std::vector<std::str
   const std::string& output, const std::vector<std::string>& inputs) const
 {
   const auto found = this->Stages.find(stage);
-  if (found == this->Stages.end() || found->second.options != options || !fs::exists(output))
+  if (found == this->Stages.end() || found->second.options != options || !IsThere(output))
   {
     return false;
   }
   const fs::file_time_type made = NewestTime(output);
   return std::all_of(inputs.begin(), inputs.end(),
-    [made](const std::string& input) { return fs::exists(input) && NewestTime(input) <= made; });
+    [made](const std::string& input) { return IsThere(input) && NewestTime(input) <= made; });
 }
 
 double StageRecord::Seconds(const std::string& stage) const
