@@ -2,6 +2,7 @@
 #include "vtkFreespaceUnion.h"
 
 #include "Data/ViewBlocks.h"
+#include "Support/ErrorObserver.h"
 #include "Support/RandomMaps.h"
 
 #include <vtkDoubleArray.h>
@@ -100,14 +101,17 @@ TEST(FreespaceFailsClosed, PointsHaveThreeStates)
 
 TEST(FreespaceFailsClosed, NothingInPlaceOfABatch)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  freespace::ExpectedErrors errors;
   const auto phi = MakeUnion(true);
   vtkNew<vtkPoints> points;
   EXPECT_FALSE(phi->ArePointsFree(nullptr, nullptr));
+  EXPECT_TRUE(errors.Has("A batch has no points"));
   EXPECT_FALSE(phi->GetPointStates(points, nullptr));
+  EXPECT_TRUE(errors.Has("A batch has no points"));
   EXPECT_FALSE(phi->FirstBlocked(points, nullptr, nullptr));
+  EXPECT_TRUE(errors.Has("A batch has no points"));
   EXPECT_FALSE(phi->AreSpheresFree(points, nullptr, nullptr));
-  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_TRUE(errors.Has("A batch has no points"));
 }
 
 // The union alone keeps what makes its maps.

@@ -126,12 +126,13 @@ TEST(MergeViewsFilter, EmptyInputAndEmptyViews)
 
 TEST(MergeViewsFilter, BlockThatIsNoView)
 {
-  const QuietWarnings quiet;
+  ExpectedErrors errors;
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, vtkNew<vtkPolyData>());
   vtkNew<vtkMergeViewsFilter> merge;
   merge->AddInputDataObject(Blocks({ MakeView("a", "a.jpg", 2, 0) }));
   merge->AddInputDataObject(blocks);
   merge->Update();
+  EXPECT_TRUE(errors.Has("View 'block 0' has no array CameraIntrinsics"));
   EXPECT_EQ(merge->GetOutput()->GetNumberOfBlocks(), 0u);
 }

@@ -45,8 +45,9 @@ TEST(vtkSimplifySurfaceFilter, LeavesOutTrianglesAndKeepsLabels)
     EXPECT_EQ(array->GetRange()[1], before->GetCellData()->GetArray(name)->GetRange()[1]);
   }
   EXPECT_EQ(after->GetPoints()->GetDataType(), before->GetPoints()->GetDataType());
-  const QuietWarnings quiet;
+  ExpectedErrors errors;
   simplify->SetDistance(0);
   EXPECT_FALSE(simplify->GetExecutive()->Update());
+  EXPECT_TRUE(errors.Has("it must be a length above 0"));
   EXPECT_EQ(simplify->GetOutput()->GetNumberOfCells(), 0);
 }

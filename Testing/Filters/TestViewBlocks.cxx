@@ -132,16 +132,17 @@ TEST(ViewBlocks, AFolderOfTheSameNameKeepsWhatIsNotItsPart)
 
 TEST(ViewBlocks, UnwritableFolderIsAnError)
 {
-  const QuietWarnings quiet;
+  ExpectedErrors errors;
   vtkNew<vtkViewBlocksWriter> writer;
   writer->SetInputDataObject(MakeBlocks());
   writer->SetFileName("/nowhere/at/all/maps.vtm");
   EXPECT_EQ(writer->Write(), 0);
+  EXPECT_TRUE(errors.Has("/nowhere/at/all"));
 }
 
 TEST(ViewBlocks, TruncatedFileIsAnError)
 {
-  const QuietWarnings quiet;
+  ExpectedErrors errors;
   const TemporaryFolder temporary;
   const std::string folder = temporary.Path();
   const std::string file = folder + "/maps.vtm";
@@ -155,6 +156,7 @@ TEST(ViewBlocks, TruncatedFileIsAnError)
   vtkNew<vtkViewBlocksReader> reader;
   reader->SetFileName(file);
   reader->Update();
+  EXPECT_TRUE(errors.Has("maps_1.vtp"));
   EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
 }
 

@@ -3,6 +3,7 @@
 #include "vtkSparseModelWriter.h"
 
 #include "SparseModel/ColmapModel.h"
+#include "Support/ErrorObserver.h"
 #include "Support/SharedData.h"
 #include "Support/TemporaryFolder.h"
 
@@ -109,20 +110,24 @@ TEST(BoardCalibrationOfSharedData, Chessboard)
 
 TEST(BoardCalibrationReader, BadInput)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   vtkNew<vtkBoardCalibration> calibration;
   calibration->Update();
-  EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u) << "no pictures";
+  EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_TRUE(errors.Has("There are no pictures to calibrate from."));
   calibration->AddFileName("/no/such/picture.png");
   calibration->SetBoard("chessboard:9x6:0.025");
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_TRUE(errors.Has("/no/such/picture.png"));
   calibration->SetBoard("dots:9x6");
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_TRUE(errors.Has("dots:9x6"));
   EXPECT_EQ(calibration->GetText(), "");
   TemporaryFolder folder;
   EXPECT_EQ(calibration->WriteScene(folder.Path("scene.json"), folder.Path("model")), 0);
+  EXPECT_TRUE(errors.Has("nothing was calibrated"));
   calibration->ClearFileNames();
   EXPECT_EQ(calibration->GetNumberOfFileNames(), 0);
 }

@@ -2,6 +2,7 @@
 #include "vtkClusterProposal.h"
 
 #include "Scene/Scene.h"
+#include "Support/ErrorObserver.h"
 #include "Support/SharedData.h"
 #include "Support/TemporaryFolder.h"
 
@@ -39,13 +40,14 @@ TEST(ClusterProposal, OfAModelWithoutAScene)
   {
     GTEST_SKIP() << "no shared data";
   }
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   vtkNew<vtkClusterProposal> proposal;
   proposal->SetModel(data + "/sparse");
   ASSERT_EQ(proposal->Propose(), 1);
   EXPECT_EQ(proposal->GetNumberOfClusters(), 3);
   TemporaryFolder folder;
-  EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0) << "where are the photographs?";
+  EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0);
+  EXPECT_TRUE(errors.Has("the folder of the photographs was not given"));
   proposal->SetImages(data + "/images");
   ASSERT_EQ(proposal->Propose(), 1);
   ASSERT_EQ(proposal->WriteScene(folder.Path("scene.json")), 1);
@@ -56,18 +58,21 @@ TEST(ClusterProposal, OfAModelWithoutAScene)
 
 TEST(ClusterProposal, BadInput)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   vtkNew<vtkClusterProposal> proposal;
   proposal->SetFileName("/no/such/scene.json");
   EXPECT_EQ(proposal->Propose(), 0);
+  EXPECT_TRUE(errors.Has("/no/such/scene.json"));
   EXPECT_EQ(proposal->GetNumberOfClusters(), 0);
   EXPECT_EQ(proposal->GetReference(0), "");
   EXPECT_EQ(proposal->GetNumberOfTriplets(-1), 0);
   TemporaryFolder folder;
   EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0);
+  EXPECT_TRUE(errors.Has("no clusters were chosen"));
   folder.Write("sparse/cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
   folder.Write("sparse/images.txt", "1 1 0 0 0 0 0 0 1 a.jpg\n\n");
   proposal->SetFileName(
     folder.Write("scene.json", R"({ "images": "pictures", "model": "sparse" })"));
   EXPECT_EQ(proposal->Propose(), 0) << "one image has no neighbours";
+  EXPECT_TRUE(errors.Has("has two neighbours at angles"));
 }

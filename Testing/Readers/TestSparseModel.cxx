@@ -5,6 +5,7 @@
 
 #include "Data/ViewBlocks.h"
 #include "SparseModel/ColmapModel.h"
+#include "Support/ErrorObserver.h"
 #include "Support/ExpectSameModel.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
@@ -151,10 +152,11 @@ TEST(SparseModelReaderAndWriter, ViewsWithoutAModel)
 
 TEST(SparseModelReaderAndWriter, BadInput)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   vtkNew<vtkSparseModelReader> reader;
   reader->SetFileName("/no/such/model");
   reader->Update();
+  EXPECT_TRUE(errors.Has("/no/such/model"));
   EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
 
   TemporaryFolder folder;
@@ -162,12 +164,14 @@ TEST(SparseModelReaderAndWriter, BadInput)
   std::filesystem::resize_file(folder.Path("model/images.bin"), 1000);
   reader->SetFileName(folder.Path("model"));
   reader->Update();
-  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u) << "truncated";
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_TRUE(errors.Has("images.bin: it is truncated"));
 
   WriteColmapModel(MakeSyntheticModel(3, 2), folder.Path("few"), ColmapFormat::Binary);
   reader->SetFileName(folder.Path("few"));
   reader->Update();
-  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u) << "too few points for any view";
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfBlocks(), 0u);
+  EXPECT_TRUE(errors.Has("has no image with at least 10 points"));
 
   WriteColmapModel(MakeSyntheticModel(3, 30), folder.Path("model"), ColmapFormat::Binary);
   reader->SetFileName(folder.Path("model"));
@@ -177,6 +181,7 @@ TEST(SparseModelReaderAndWriter, BadInput)
   writer->SetInputConnection(reader->GetOutputPort());
   writer->SetFileName("/no/such/folder/model");
   EXPECT_EQ(writer->Write(), 0);
+  EXPECT_TRUE(errors.Has("/no/such/folder"));
 
   vtkNew<vtkMultiBlockDataSet> twice;
   for (unsigned int i = 0; i < 2; ++i)
@@ -187,6 +192,7 @@ TEST(SparseModelReaderAndWriter, BadInput)
   writer->SetInputDataObject(twice);
   writer->SetFileName(folder.Path("twice"));
   EXPECT_EQ(writer->Write(), 0) << "two views of one image";
+  EXPECT_TRUE(errors.Has("a camera model has each image once"));
 }
 
 TEST(SparseModelReaderAndWriter, RecognizesModels)

@@ -4,6 +4,7 @@
 #include "Common/Camera.h"
 #include "Common/View.h"
 #include "Data/ViewBlocks.h"
+#include "Support/ErrorObserver.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -242,7 +243,7 @@ TEST(CalibratedCamera, ReadsTheFieldDataOfAView)
 
 TEST(CalibratedCamera, RefusesWhatIsNoCamera)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   std::mt19937 random(5);
   vtkNew<vtkCamera> target;
   const vtkMTimeType before = target->GetMTime();
@@ -250,19 +251,25 @@ TEST(CalibratedCamera, RefusesWhatIsNoCamera)
   Camera camera = good;
   camera.t.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(CameraArrays(camera).Apply(target), 0);
+  EXPECT_TRUE(errors.Has("a value that is not finite"));
   camera = good;
   camera.R *= 1.01;
   EXPECT_EQ(CameraArrays(camera).Apply(target), 0);
+  EXPECT_TRUE(errors.Has("a matrix that is no rotation"));
   camera = good;
   camera.R.row(0) *= -1; // a mirror
   EXPECT_EQ(CameraArrays(camera).Apply(target), 0);
+  EXPECT_TRUE(errors.Has("a matrix that is no rotation"));
   camera = good;
   camera.K(0, 0) = 0;
   EXPECT_EQ(CameraArrays(camera).Apply(target), 0);
+  EXPECT_TRUE(errors.Has("positive focal lengths"));
   camera = good;
   camera.width = 0;
   EXPECT_EQ(CameraArrays(camera).Apply(target), 0);
+  EXPECT_TRUE(errors.Has("has no pixels"));
   vtkNew<vtkPolyData> noView;
   EXPECT_EQ(vtkCalibratedCamera::ApplyViewBlock(target, noView), 0);
+  EXPECT_TRUE(errors.Has("no array CameraIntrinsics"));
   EXPECT_EQ(target->GetMTime(), before);
 }

@@ -2,6 +2,7 @@
 #include "vtkSurfacePicture.h"
 
 #include "Common/Camera.h"
+#include "Support/ErrorObserver.h"
 #include "Support/PictureComparison.h"
 
 #include <vtkAppendPolyData.h>
@@ -231,33 +232,36 @@ TEST(SurfacePicture, WritesThePNGThatItShows)
 
 TEST(SurfacePicture, UnwritableFolderIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  freespace::ExpectedErrors errors;
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(BallOnSlab());
   picture->SetSize(32, 24);
   EXPECT_EQ(picture->WritePNG("/nowhere/at/all/picture.png"), 0);
+  EXPECT_TRUE(errors.Has("/nowhere/at/all"));
 }
 
 TEST(SurfacePicture, EmptySurfaceIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  freespace::ExpectedErrors errors;
   const std::string folder = TemporaryFolder();
   vtkNew<vtkPolyData> empty;
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(empty);
   EXPECT_EQ(picture->WritePNG(folder + "/picture.png"), 0);
+  EXPECT_TRUE(errors.Has("There is no surface to make a picture of."));
   EXPECT_TRUE(fs::is_empty(folder));
   fs::remove_all(folder);
 }
 
 TEST(SurfacePicture, RefusesACameraThatIsNone)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  freespace::ExpectedErrors errors;
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(BallOnSlab());
   picture->SetSize(32, 24);
   const double noRotation[12] = {};
   picture->SetView(FromAboveK, noRotation, FromAboveSize);
+  EXPECT_TRUE(errors.Has("a matrix that is no rotation"));
   picture->Update();
   EXPECT_EQ(picture->GetOutput()->GetDimensions()[0], 32);
 }

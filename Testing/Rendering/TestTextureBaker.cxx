@@ -2,6 +2,7 @@
 #include "vtkTextureBaker.h"
 
 #include "Common/Error.h"
+#include "Support/ErrorObserver.h"
 #include "Support/BlockScene.h"
 #include "Texture/SurfaceColor.h"
 #include "Texture/TextureAtlas.h"
@@ -162,10 +163,11 @@ TEST(TextureBaker, WithoutPhotographsAllIsUnseen)
 
 TEST(TextureBaker, EmptySurfaceIsAnError)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   vtkNew<vtkTextureBaker> baker;
   baker->SetInputData(vtkSmartPointer<vtkPolyData>::New());
   baker->Update();
+  EXPECT_TRUE(errors.Has("There is no surface to texture."));
   EXPECT_EQ(baker->GetOutput()->GetNumberOfCells(), 0);
 }
 
@@ -289,15 +291,18 @@ TEST(TexturedSurfaceWriter, PLYHasTheColoursOfPoints)
 
 TEST(TexturedSurfaceWriter, FaultsAreErrors)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   const BakedScene baked(1);
   EXPECT_EQ(Write(baked, "/nowhere/at/all/model.glb"), 0);
+  EXPECT_TRUE(errors.Has("/nowhere/at/all"));
   const std::string folder = TemporaryFolder();
   EXPECT_EQ(Write(baked, folder + "/model.xyz"), 0);
+  EXPECT_TRUE(errors.Has("model.xyz"));
   vtkNew<vtkTexturedSurfaceWriter> writer;
   writer->SetInputDataObject(0, baked.scene.Surface());
   writer->SetFileName(folder + "/model.glb");
   EXPECT_EQ(writer->Write(), 0) << "no texture";
+  EXPECT_TRUE(errors.Has("no texture or no coordinates"));
   EXPECT_TRUE(fs::is_empty(folder));
   fs::remove_all(folder);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkViewDependentTextureMapper.h"
 
+#include "Support/ErrorObserver.h"
 #include "Support/BlockScene.h"
 #include "Support/PictureComparison.h"
 #include "vtkSurfacePicture.h"
@@ -246,12 +247,13 @@ TEST(ViewDependentTexture, WithoutPhotographsAllIsUnseen)
 
 TEST(ViewDependentTexture, RefusesABlockThatIsNoPhotograph)
 {
-  vtkObject::GlobalWarningDisplayOff();
+  ExpectedErrors errors;
   Comparison comparison(BlockScene(), BlockScene().CameraAt(0.4), 2);
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->ShallowCopy(comparison.mapper->GetPhotographs());
   blocks->SetBlock(1, vtkSmartPointer<vtkPolyData>::New());
   comparison.mapper->SetPhotographs(blocks);
   comparison.Render();
+  EXPECT_TRUE(errors.Has("'p1' is not an image"));
   EXPECT_EQ(comparison.mapper->GetNumberOfViewsInUse(), 0);
 }

@@ -5,7 +5,12 @@
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <gtest/gtest.h>
 
 #include <string>
 
@@ -38,14 +43,50 @@ public:
   std::string Last, All;
 };
 
-/// Turns the display of warnings and errors off in its scope; observers do not get them either.
-class QuietWarnings
+/// Keeps in its scope what VTK reports instead of printing it, and fails the test when nothing was reported: for
+/// inputs that must be refused. Objects with an observer of their own report to that one.
+class ExpectedErrors
 {
 public:
-  QuietWarnings() { vtkObject::GlobalWarningDisplayOff(); }
-  ~QuietWarnings() { vtkObject::GlobalWarningDisplayOn(); }
-  QuietWarnings(const QuietWarnings&) = delete;
-  QuietWarnings& operator=(const QuietWarnings&) = delete;
+  ExpectedErrors()
+  {
+    vtkOutputWindow::SetInstance(this->Window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~ExpectedErrors()
+  {
+    EXPECT_FALSE(this->Window->Text.empty()) << "no error was reported";
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+    vtkOutputWindow::SetInstance(this->Previous);
+  }
+  ExpectedErrors(const ExpectedErrors&) = delete;
+  ExpectedErrors& operator=(const ExpectedErrors&) = delete;
+
+  /// Whether one of the errors since the last call has this text.
+  testing::AssertionResult Has(const std::string& text)
+  {
+    const std::string since = this->Window->Text.substr(this->Read);
+    this->Read = this->Window->Text.size();
+    if (since.find(text) != std::string::npos)
+    {
+      return testing::AssertionSuccess();
+    }
+    return testing::AssertionFailure() << "no '" << text << "' in '" << since << "'";
+  }
+
+private:
+  class TextWindow : public vtkOutputWindow
+  {
+  public:
+    static TextWindow* New() { return new TextWindow; }
+    void DisplayText(const char* text) override { this->Text += text; }
+    std::string Text;
+  };
+
+  vtkSmartPointer<vtkOutputWindow> Previous = vtkOutputWindow::GetInstance();
+  vtkLogger::Verbosity Verbosity = vtkLogger::GetCurrentVerbosityCutoff();
+  vtkNew<TextWindow> Window;
+  std::size_t Read = 0;
 };
 
 /// Updates an algorithm and returns the text of its errors; empty when there is none.

@@ -230,12 +230,16 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
 
 TEST(OccupancyMapWriter, FaultsAreErrors)
 {
-  const QuietWarnings quiet;
+  ExpectedErrors errors;
   const std::string folder = TemporaryFolder();
   EXPECT_EQ(Write("/nowhere/at/all/map.bt", Maps()), 0);
+  EXPECT_TRUE(errors.Has("/nowhere/at/all"));
   EXPECT_EQ(Write(folder + "/map.xyz", Maps()), 0);
+  EXPECT_TRUE(errors.Has("map.xyz"));
   EXPECT_EQ(Write(folder + "/map.bt", vtkSmartPointer<vtkMultiBlockDataSet>::New()), 0);
+  EXPECT_TRUE(errors.Has("the disparity maps have no features"));
   EXPECT_EQ(Write(folder + "/map.bt", Maps(), 1e-6), 0);
+  EXPECT_TRUE(errors.Has("A resolution of 0.000001"));
   EXPECT_TRUE(fs::is_empty(folder));
   fs::remove_all(folder);
 }
