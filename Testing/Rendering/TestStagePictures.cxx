@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of what each stage makes of one scene, and numbers that say what a picture cannot: a block of 2 x 2 x 2 on
 // a board, seen by six cameras.
-#include "Support/BlockScene.h"
+#include "Support/BlockFeatures.h"
 #include "Support/PictureComparison.h"
 #include "Support/PlainSettings.h"
+#include "Support/TemporaryFolder.h"
 #include "vtkBisectionContourFilter.h"
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkFeatureOverlayWriter.h"
 #include "vtkFreespaceUnion.h"
+#include "vtkOccupancyMapWriter.h"
 #include "vtkSimplifySurfaceFilter.h"
 #include "vtkSurfacePicture.h"
 #include "vtkTextureBaker.h"
 
+#include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
+#include <vtkCubeSource.h>
 #include <vtkCutter.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
@@ -22,86 +26,18 @@
 #include <vtkSampleFunction.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <octomap/octomap.h>
+
 #include <filesystem>
 #include <functional>
 
 namespace
 {
 
-constexpr int Cameras = 6;
-
-// What a camera sees of the corners of a grid on the board and on the block, its edges included.
-freespace::View ViewOf(const BlockScene& scene, int index)
-{
-  freespace::View view;
-  view.name = "v" + std::to_string(index);
-  view.imageFile = "p" + std::to_string(index) + ".png";
-  view.camera = scene.CameraAt(2 * M_PI * index / Cameras);
-  const freespace::DisparityImage depths = RenderDisparity(scene.Mesh(), view.camera);
-  const auto add = [&](const Eigen::Vector3d& point)
-  {
-    const Eigen::Vector2d pixel = view.camera.Project(point);
-    const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
-    if (u < 1 || v < 1 || u >= view.camera.width - 1 || v >= view.camera.height - 1)
-    {
-      return;
-    }
-    float nearest = 0;
-    float farthest = 1e9F;
-    for (int i = 0; i < 9; ++i)
-    {
-      const float disparity = depths.At(u + i % 3 - 1, v + i / 3 - 1);
-      nearest = std::max(nearest, disparity);
-      farthest = std::min(farthest, disparity);
-    }
-    if (1 / view.camera.Depth(point) > farthest * 0.999 &&
-      1 / view.camera.Depth(point) > nearest * 0.985)
-    {
-      view.points.push_back(point);
-      view.imagePoints.push_back(pixel);
-    }
-  };
-  for (int i = -10; i <= 10; ++i)
-  {
-    for (int j = -10; j <= 10; ++j)
-    {
-      if (std::max(std::abs(i), std::abs(j)) >= 2)
-      {
-        add({ 0.5 * i, 0.5 * j, 0 });
-      }
-    }
-  }
-  for (int i = -4; i <= 4; ++i)
-  {
-    for (int j = 0; j <= 8; ++j)
-    {
-      add({ 0.25 * i, 0.25 * (j - 4), 2 });
-      for (const double side : { -1.0, 1.0 })
-      {
-        add({ 0.25 * i, side, 0.25 * j });
-        add({ side, 0.25 * i, 0.25 * j });
-      }
-    }
-  }
-  return view;
-}
-
-vtkSmartPointer<vtkMultiBlockDataSet> Features()
-{
-  const BlockScene scene;
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (int i = 0; i < Cameras; ++i)
-  {
-    const freespace::View view = ViewOf(scene, i);
-    freespace::SetNamedBlock(blocks, i, view.name, freespace::BlockFromView(view));
-  }
-  return blocks;
-}
-
 vtkSmartPointer<vtkMultiBlockDataSet> Maps()
 {
   vtkNew<vtkDelaunayDisparityFilter> filter;
-  filter->SetInputDataObject(Features());
+  filter->SetInputDataObject(BlockFeatures());
   filter->Update();
   return filter->GetOutput();
 }
@@ -264,7 +200,7 @@ TEST(StagePictures, BakedTexture)
   const BlockScene scene;
   vtkNew<vtkTextureBaker> baker;
   baker->SetInputData(scene.Surface());
-  baker->SetPhotographs(scene.Photographs(Cameras));
+  baker->SetPhotographs(scene.Photographs(BlockCameras));
   baker->SetLargestTexture(128);
   baker->Update();
   auto* surface = vtkPolyData::SafeDownCast(baker->GetOutputDataObject(0));
@@ -286,12 +222,12 @@ TEST(StagePictures, Overlay)
 {
   std::string pattern = (std::filesystem::temp_directory_path() / "freespace-test-XXXXXX").string();
   const std::string folder = mkdtemp(pattern.data());
-  const auto photographs = BlockScene().Photographs(Cameras);
+  const auto photographs = BlockScene().Photographs(BlockCameras);
   vtkNew<vtkPNGWriter> png;
   png->SetInputData(vtkImageData::SafeDownCast(photographs->GetBlock(0)));
   png->SetFileName((folder + "/p0.png").c_str());
   png->Write();
-  const auto features = Features();
+  const auto features = BlockFeatures();
   features->SetNumberOfBlocks(1);
   vtkNew<vtkFeatureOverlayWriter> overlay;
   overlay->SetInputDataObject(features);
@@ -321,4 +257,40 @@ TEST(StagePictures, Overlay)
   }
   ExpectBaseline(drawn, "FeatureOverlay");
   std::filesystem::remove_all(folder);
+}
+
+TEST(StagePictures, OccupancyMap)
+{
+  const freespace::TemporaryFolder folder;
+  vtkNew<vtkOccupancyMapWriter> writer;
+  SetPlain(writer.Get());
+  writer->SetInputDataObject(Maps());
+  writer->SetFileName(folder.Path("map.bt"));
+  writer->SetResolution(0.25);
+  ASSERT_EQ(writer->Write(), 1);
+  const octomap::OcTree tree(folder.Path("map.bt"));
+  // Of the block every cell that a view looks at is occupied, and above it none.
+  vtkNew<vtkAppendPolyData> cubes;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
+  {
+    const octomap::point3d middle = leaf.getCoordinate();
+    const double half = leaf.getSize() / 2;
+    const double side = std::max(std::abs(middle.x()), std::abs(middle.y())) + half;
+    const bool isOccupied = tree.isNodeOccupied(*leaf);
+    EXPECT_FALSE(middle.z() - half > 2.01 && isOccupied) << "over the block at " << middle;
+    EXPECT_FALSE(side < 0.99 && middle.z() - half > 0 && middle.z() + half < 1.99 && !isOccupied)
+      << "in the block at " << middle;
+    if (isOccupied)
+    {
+      vtkNew<vtkCubeSource> cube;
+      cube->SetCenter(middle.x(), middle.y(), middle.z());
+      cube->SetXLength(2 * half);
+      cube->SetYLength(2 * half);
+      cube->SetZLength(2 * half);
+      cube->Update();
+      cubes->AddInputData(cube->GetOutput());
+    }
+  }
+  cubes->Update();
+  ExpectBaseline(PictureOf(cubes->GetOutput()), "OccupancyMap");
 }

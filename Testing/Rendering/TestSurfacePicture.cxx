@@ -4,13 +4,16 @@
 #include "Common/Camera.h"
 #include "Support/ErrorObserver.h"
 #include "Support/PictureComparison.h"
+#include "vtkSurfaceComparison.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCubeSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPlaneSource.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
+#include <vtkTriangleFilter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <array>
@@ -197,6 +200,83 @@ TEST(SurfacePicture, ShowsColoursOfPoints)
   EXPECT_EQ(colour[0], 0);
   EXPECT_GT(colour[1], 100);
   EXPECT_EQ(colour[2], 0);
+}
+
+TEST(SurfacePicture, DrawsTheEdgesOfTriangles)
+{
+  vtkNew<vtkPlaneSource> grid; // 4 x 4 squares of half a unit: 50 pixels
+  grid->SetOrigin(-1, -1, 0);
+  grid->SetPoint1(1, -1, 0);
+  grid->SetPoint2(-1, 1, 0);
+  grid->SetResolution(4, 4);
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->SetInputConnection(grid->GetOutputPort());
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputConnection(triangles->GetOutputPort());
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->EdgesOn();
+  picture->Update();
+  vtkImageData* image = picture->GetOutput();
+  const auto isDark = [&](int column, int row)
+  {
+    int darkest = 255;
+    for (int i = 0; i < 9; ++i)
+    {
+      darkest = std::min(darkest, Colour(image, column + i % 3 - 1, row + i / 3 - 1)[0]);
+    }
+    return darkest < 150; // the surface is about 200
+  };
+  for (int i = 0; i < 16; ++i)
+  {
+    const int left = 70 + 50 * (i % 4), top = 10 + 50 * (i / 4);
+    EXPECT_TRUE(isDark(left, top + 10)) << "left of square " << i;
+    EXPECT_TRUE(isDark(left + 10, top)) << "top of square " << i;
+    EXPECT_NE(isDark(left + 12, top + 12), isDark(left + 38, top + 12))
+      << "one diagonal of square " << i;
+    EXPECT_FALSE(isDark(left + 25, top + 12)) << "no edge in square " << i;
+  }
+  ExpectBaseline(image, "SurfacePictureEdges");
+}
+
+// The distances to a plane of a surface that is inclined to it, with the bar that tells them.
+TEST(SurfacePicture, ColoursByDistancesToAReference)
+{
+  vtkNew<vtkPlaneSource> inclined, reference;
+  inclined->SetOrigin(-1, -1, -0.3);
+  inclined->SetPoint1(1, -1, 0.3);
+  inclined->SetPoint2(-1, 1, -0.3);
+  inclined->SetResolution(20, 20);
+  reference->SetOrigin(-9, -9, 0);
+  reference->SetPoint1(9, -9, 0);
+  reference->SetPoint2(-9, 9, 0);
+  vtkNew<vtkSurfaceComparison> comparison;
+  comparison->SetInputConnection(0, inclined->GetOutputPort());
+  comparison->SetInputConnection(1, reference->GetOutputPort());
+  comparison->SetSamples(0);
+  comparison->Update();
+  auto* surface = vtkPolyData::SafeDownCast(comparison->GetOutputDataObject(0));
+  vtkDataArray* distances = surface->GetPointData()->GetArray("Distance");
+  ASSERT_EQ(distances->GetNumberOfTuples(), 21 * 21);
+  for (vtkIdType i = 0; i < distances->GetNumberOfTuples(); ++i)
+  {
+    EXPECT_NEAR(distances->GetTuple1(i), std::abs(surface->GetPoint(i)[2]), 1e-7);
+  }
+  vtkNew<vtkSurfacePicture> picture;
+  picture->SetInputData(surface);
+  picture->SetView(FromAboveK, FromAbove, FromAboveSize);
+  picture->SetColorArray("Distance");
+  picture->Update();
+  vtkImageData* image = picture->GetOutput();
+  const auto middle = Colour(image, 170, 110), left = Colour(image, 80, 110);
+  EXPECT_GT(middle[2], 2 * middle[0]) << "blue where the distance is 0";
+  EXPECT_GT(left[0], 2 * left[2]) << "red where it is greatest";
+  const auto top = Colour(image, 272, 40), bottom = Colour(image, 272, 205);
+  EXPECT_GT(top[0], 2 * top[2]) << "the bar's upper end";
+  EXPECT_GT(bottom[2], 2 * bottom[0]) << "and its lower one";
+  const int withoutBar[6] = { 0, 255, 0, 239, 0,
+    0 }; // whose words depend on the version of FreeType
+  image->Crop(withoutBar);
+  ExpectBaseline(image, "SurfacePictureDistances");
 }
 
 TEST(SurfacePicture, SurfaceMayChange)

@@ -14,8 +14,9 @@ void NeighborMatchingOptions::Check() const
   }
   if (!(this->tolerance > 0) || this->tokensPerImage < 1 || this->tracksPerImage < 1)
   {
-    throw Error("The tolerance of matching with neighbours and its numbers of tokens and tracks must "
-                "be positive.");
+    throw Error(
+      "The tolerance of matching with neighbours and its numbers of tokens and tracks must "
+      "be positive.");
   }
 }
 
