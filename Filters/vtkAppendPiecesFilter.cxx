@@ -8,6 +8,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -297,6 +298,7 @@ int vtkAppendPiecesFilter::FillInputPortInformation(int, vtkInformation* info)
 int vtkAppendPiecesFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   std::vector<vtkPolyData*> pieces;
   for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)

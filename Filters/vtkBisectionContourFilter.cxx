@@ -16,6 +16,7 @@
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkImplicitFunction.h>
@@ -381,6 +382,7 @@ double vtkBisectionContourFilter::EstimateMemory()
 int vtkBisectionContourFilter::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkInformation* information = outputVector->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(information);
   const freespace::Progress progress = freespace::AlgorithmProgress(this);

@@ -14,6 +14,7 @@
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
 
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -55,6 +56,7 @@ int vtkDelaunayDisparityFilter::FillInputPortInformation(int, vtkInformation* in
 int vtkDelaunayDisparityFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::DelaunayDisparityOptions options;
   options.minimumDisparity = this->MinimumDisparity != 0;

@@ -10,6 +10,7 @@
 #include "Execution/SMPParallelFor.h"
 
 #include <vtkCellArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
@@ -100,6 +101,7 @@ int vtkFeatureSupportFilter::FillInputPortInformation(int, vtkInformation* info)
 int vtkFeatureSupportFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::FeatureSupportOptions options;
   options.radius = this->Radius;

@@ -9,6 +9,7 @@
 #include "Mesh/Fit/FitSurface.h"
 
 #include <vtkCellArray.h>
+#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -111,6 +112,7 @@ int vtkFitSurfaceFilter::FillInputPortInformation(int port, vtkInformation* info
 int vtkFitSurfaceFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* input = vtkPolyData::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   try

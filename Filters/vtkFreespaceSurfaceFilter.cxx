@@ -10,6 +10,7 @@
 #include "vtkFreespaceUnion.h"
 
 #include <vtkCommand.h>
+#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
@@ -172,6 +173,7 @@ int vtkFreespaceSurfaceFilter::RequestUpdateExtent(
 int vtkFreespaceSurfaceFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkInformation* information = outputVector->GetInformationObject(0);
   vtkPolyData* output = vtkPolyData::GetData(information);
   // The pipeline's own data may be released while the function holds the maps.

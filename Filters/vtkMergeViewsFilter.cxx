@@ -9,6 +9,7 @@
 #include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -97,6 +98,7 @@ int vtkMergeViewsFilter::FillInputPortInformation(int, vtkInformation* info)
 int vtkMergeViewsFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   try
   {

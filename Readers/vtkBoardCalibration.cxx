@@ -10,9 +10,11 @@
 #include "Execution/SMPParallelFor.h"
 #include "Blocks/SparseModelBlocks.h"
 
+#include <vtkErrorCode.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -60,6 +62,15 @@ std::vector<freespace::SparseView> ViewsOf(const freespace::SparseModel& model)
   return freespace::ViewsFromModel(model, options);
 }
 
+// The first that cannot be read, or the first.
+std::string FirstFault(const std::vector<std::string>& files)
+{
+  const auto found = std::find_if(files.begin(), files.end(),
+    [](const std::string& file)
+    { return !vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ); });
+  return found != files.end() ? *found : files.empty() ? std::string() : files.front();
+}
+
 std::string Format(double value)
 {
   char text[40];
@@ -97,6 +108,7 @@ int vtkBoardCalibration::GetNumberOfFileNames()
 int vtkBoardCalibration::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   *this->Calibrated = {};
   try
@@ -121,6 +133,7 @@ int vtkBoardCalibration::RequestData(
   }
   catch (...)
   {
+    this->SetErrorCode(freespace::ErrorCodeOf(FirstFault(this->FileNames)));
     return freespace::AfterException(this);
   }
   return 1;

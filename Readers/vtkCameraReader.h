@@ -16,6 +16,7 @@
 #define vtkCameraReader_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
 #include <string> // for FileName
@@ -33,19 +34,8 @@ public:
   /**
    * A scene.json or the folder of a COLMAP model.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   /**

@@ -30,6 +30,7 @@
 #define vtkClusterProposal_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkObject.h"
 
 #include <memory> // for the result
@@ -46,19 +47,8 @@ public:
   /**
    * The scene.json whose images and camera model are used.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   ///@{
@@ -66,32 +56,10 @@ public:
    * Instead of a scene.json: the folder or file of a camera model, as vtkSparseModelReader reads it, and
    * the folder of its photographs. FileName must then be empty.
    */
-  virtual void SetModel(VTK_FILEPATH const std::string& model)
-  {
-    if (this->Model != model)
-    {
-      this->Model = model;
-      this->Modified();
-    }
-  }
-  void SetModel(VTK_FILEPATH const char* model) // null is none
-  {
-    this->SetModel(std::string(model ? model : ""));
-  }
-  vtkGetMacro(Model, std::string);
-  virtual void SetImages(VTK_FILEPATH const std::string& images)
-  {
-    if (this->Images != images)
-    {
-      this->Images = images;
-      this->Modified();
-    }
-  }
-  void SetImages(VTK_FILEPATH const char* images) // null is none
-  {
-    this->SetImages(std::string(images ? images : ""));
-  }
-  vtkGetMacro(Images, std::string);
+  vtkSetFilePathStringMacro(Model);
+  vtkGetFilePathStringMacro(Model);
+  vtkSetFilePathStringMacro(Images);
+  vtkGetFilePathStringMacro(Images);
   ///@}
 
   ///@{
@@ -131,7 +99,7 @@ public:
    * With how many neighbours a reference is matched at most: 2 or 4, of which the second two stand across
    * the first two or farther out. Default 4.
    */
-  vtkSetClampMacro(Neighbors, int, 2, 4);
+  vtkSetMacro(Neighbors, int);
   vtkGetMacro(Neighbors, int);
   ///@}
 

@@ -24,6 +24,7 @@
 #define vtkDepthMapReader_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkMultiBlockDataSetAlgorithm.h"
 #include "vtkSmartPointer.h" // for DepthImages
 
@@ -44,19 +45,8 @@ public:
   /**
    * The scene.json or structure-from-motion model with the cameras of the images.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   /**
@@ -86,9 +76,9 @@ public:
   /**
    * Whether maps hold distances from the camera's centre, not depths along its axis. Default off.
    */
-  vtkSetMacro(IsRange, bool);
-  vtkGetMacro(IsRange, bool);
-  vtkBooleanMacro(IsRange, bool);
+  vtkSetMacro(IsRange, vtkTypeBool);
+  vtkGetMacro(IsRange, vtkTypeBool);
+  vtkBooleanMacro(IsRange, vtkTypeBool);
   ///@}
 
   ///@{
@@ -137,7 +127,7 @@ protected:
   std::vector<std::string> DepthFiles;
   std::vector<std::pair<std::string, vtkSmartPointer<vtkImageData>>> DepthImages;
   double Scale;
-  bool IsRange;
+  vtkTypeBool IsRange;
   double NearestDepth;
   double FarthestDepth;
   double Deviation;

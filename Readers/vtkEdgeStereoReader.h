@@ -60,6 +60,7 @@
 #define vtkEdgeStereoReader_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
 #include "vtkSmartPointer.h" // for the cluster proposal
@@ -85,19 +86,8 @@ public:
   /**
    * The scene.json to read.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   ///@{
@@ -174,9 +164,9 @@ public:
    * Whether small patches of the images, aligned to each other, become features where the edges leave
    * gaps: at edges without a match and between them. The paper has edges only. Default on.
    */
-  vtkSetMacro(Patches, bool);
-  vtkGetMacro(Patches, bool);
-  vtkBooleanMacro(Patches, bool);
+  vtkSetMacro(Patches, vtkTypeBool);
+  vtkGetMacro(Patches, vtkTypeBool);
+  vtkBooleanMacro(Patches, vtkTypeBool);
   ///@}
 
   ///@{
@@ -220,9 +210,9 @@ public:
    * camera is wrong, and those whose observations in the camera model are not the projections of their
    * points. Default true.
    */
-  vtkSetMacro(CheckImages, bool);
-  vtkGetMacro(CheckImages, bool);
-  vtkBooleanMacro(CheckImages, bool);
+  vtkSetMacro(CheckImages, vtkTypeBool);
+  vtkGetMacro(CheckImages, vtkTypeBool);
+  vtkBooleanMacro(CheckImages, vtkTypeBool);
   ///@}
 
   ///@{
@@ -268,10 +258,10 @@ protected:
   double MinimumAngle = 6.0;
   double ColorTolerance = 45.0;
   int MinimumRun = 4;
-  bool Patches = true;
+  vtkTypeBool Patches = true;
   int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
-  bool CheckImages = true;
+  vtkTypeBool CheckImages = true;
 
 private:
   freespace::EdgeStereoOptions StereoOptions() const;

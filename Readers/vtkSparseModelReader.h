@@ -50,6 +50,7 @@
 #define vtkSparseModelReader_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
 #include <string> // for FileName
@@ -65,19 +66,8 @@ public:
   /**
    * The folder of a COLMAP model, a file that ends in .out (Bundler) or in .nvm (VisualSFM).
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   ///@{
@@ -124,9 +114,9 @@ public:
    * Whether images are left out, with a warning that names them, whose observations are not the
    * projections of their points. Default true.
    */
-  vtkSetMacro(CheckImages, bool);
-  vtkGetMacro(CheckImages, bool);
-  vtkBooleanMacro(CheckImages, bool);
+  vtkSetMacro(CheckImages, vtkTypeBool);
+  vtkGetMacro(CheckImages, vtkTypeBool);
+  vtkBooleanMacro(CheckImages, vtkTypeBool);
   ///@}
 
 protected:
@@ -140,7 +130,7 @@ protected:
   double MaximumError = 4.0;
   double MinimumAngle = 5.0;
   int MinimumFeatures = 10;
-  bool CheckImages = true;
+  vtkTypeBool CheckImages = true;
 
 private:
   vtkSparseModelReader(const vtkSparseModelReader&) = delete;

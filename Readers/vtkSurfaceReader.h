@@ -12,6 +12,7 @@
 #define vtkSurfaceReader_h
 
 #include "vtkFreespaceReadersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkPolyDataAlgorithm.h"
 
 #include <string> // for FileName
@@ -27,19 +28,8 @@ public:
   /**
    * The file to read; its ending (.ply, .stl, .obj or .vtp) tells the format.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
 protected:

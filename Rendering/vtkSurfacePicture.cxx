@@ -16,6 +16,7 @@
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -419,6 +420,7 @@ void vtkSurfacePicture::PlaceCamera(vtkPolyData* surface, int width, int height)
 int vtkSurfacePicture::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* surface = vtkPolyData::GetData(inputVector[0]);
   vtkImageData* picture = vtkImageData::GetData(outputVector);
   Stage& stage = *this->Shown;

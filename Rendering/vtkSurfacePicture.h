@@ -99,9 +99,9 @@ public:
   /**
    * Whether the edges of the triangles are drawn. Default off.
    */
-  vtkSetMacro(Edges, bool);
-  vtkGetMacro(Edges, bool);
-  vtkBooleanMacro(Edges, bool);
+  vtkSetMacro(Edges, vtkTypeBool);
+  vtkGetMacro(Edges, vtkTypeBool);
+  vtkBooleanMacro(Edges, vtkTypeBool);
   ///@}
 
   ///@{
@@ -163,7 +163,7 @@ protected:
   double Background[3] = { 1.0, 1.0, 1.0 };
   double Up[3] = { 0.0, 0.0, 1.0 };
   double Zoom = 1.0;
-  bool Edges = false;
+  vtkTypeBool Edges = false;
   std::string ColorArray;
   vtkSmartPointer<vtkPolyDataMapper> Mapper;
 

@@ -10,6 +10,7 @@
 #include "Texture/TextureAtlas.h"
 
 #include <vtkCellArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -147,6 +148,7 @@ int vtkTextureBaker::RequestInformation(
 int vtkTextureBaker::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 0);
   vtkImageData* texture = vtkImageData::GetData(outputVector, 1);
   try

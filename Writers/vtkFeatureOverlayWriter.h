@@ -20,6 +20,7 @@
 #define vtkFeatureOverlayWriter_h
 
 #include "vtkFreespaceWritersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkWriter.h"
 
 #include <string> // for the folders
@@ -35,38 +36,16 @@ public:
   /**
    * The folder to which the views' ImageFile is relative.
    */
-  virtual void SetImagesFolder(VTK_FILEPATH const std::string& imagesFolder)
-  {
-    if (this->ImagesFolder != imagesFolder)
-    {
-      this->ImagesFolder = imagesFolder;
-      this->Modified();
-    }
-  }
-  void SetImagesFolder(VTK_FILEPATH const char* imagesFolder) // null is none
-  {
-    this->SetImagesFolder(std::string(imagesFolder ? imagesFolder : ""));
-  }
-  vtkGetMacro(ImagesFolder, std::string);
+  vtkSetFilePathStringMacro(ImagesFolder);
+  vtkGetFilePathStringMacro(ImagesFolder);
   ///@}
 
   ///@{
   /**
    * The folder for the images; created if it is missing.
    */
-  virtual void SetOutputFolder(VTK_FILEPATH const std::string& outputFolder)
-  {
-    if (this->OutputFolder != outputFolder)
-    {
-      this->OutputFolder = outputFolder;
-      this->Modified();
-    }
-  }
-  void SetOutputFolder(VTK_FILEPATH const char* outputFolder) // null is none
-  {
-    this->SetOutputFolder(std::string(outputFolder ? outputFolder : ""));
-  }
-  vtkGetMacro(OutputFolder, std::string);
+  vtkSetFilePathStringMacro(OutputFolder);
+  vtkGetFilePathStringMacro(OutputFolder);
   ///@}
 
 protected:

@@ -276,6 +276,10 @@ void vtkOccupancyMapWriter::WriteData()
       options.hullMargin = this->HullMargin;
       options.minimumViews = this->MinimumViews;
       options.Check();
+      if (!(this->Resolution >= 0 && std::isfinite(this->Resolution)))
+      {
+        throw Error("The resolution of an occupancy map must be a length, or 0.");
+      }
       AtomicOutput target(this->FileName);
       const auto blocks = freespace::ViewsOf(this->GetInput());
       const freespace::Progress progress = AlgorithmProgress(this);

@@ -21,6 +21,7 @@
 #define vtkOccupancyMapWriter_h
 
 #include "vtkFreespaceWritersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkWriter.h"
 
 #include <string> // for FileName
@@ -36,26 +37,15 @@ public:
   /**
    * The file to write; its extension (.bt or .ot) determines the format.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   ///@{
   /**
-   * Side of the smallest cells. Default 0: 1/128 of the longest side of the hull's bounding box.
+   * Side of the smallest cells; a negative one is an error. Default 0: 1/128 of the longest side of the hull's bounding box.
    */
-  vtkSetClampMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(Resolution, double);
   vtkGetMacro(Resolution, double);
   ///@}
 

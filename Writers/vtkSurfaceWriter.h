@@ -16,6 +16,7 @@
 #define vtkSurfaceWriter_h
 
 #include "vtkFreespaceWritersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkWriter.h"
 
 #include <string> // for FileName
@@ -31,19 +32,8 @@ public:
   /**
    * The file to write; its extension (.ply, .stl, .obj or .vtp) determines the format.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   /**

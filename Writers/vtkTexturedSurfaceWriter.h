@@ -21,6 +21,7 @@
 #define vtkTexturedSurfaceWriter_h
 
 #include "vtkFreespaceWritersModule.h" // for the export macro
+#include "vtkFreespaceSetGet.h"        // for file names
 #include "vtkWriter.h"
 
 #include <string> // for FileName
@@ -36,19 +37,8 @@ public:
   /**
    * The file to write; its extension (.glb, .obj or .ply) determines the format.
    */
-  virtual void SetFileName(VTK_FILEPATH const std::string& fileName)
-  {
-    if (this->FileName != fileName)
-    {
-      this->FileName = fileName;
-      this->Modified();
-    }
-  }
-  void SetFileName(VTK_FILEPATH const char* fileName) // null is no name
-  {
-    this->SetFileName(std::string(fileName ? fileName : ""));
-  }
-  vtkGetMacro(FileName, std::string);
+  vtkSetFilePathStringMacro(FileName);
+  vtkGetFilePathStringMacro(FileName);
   ///@}
 
   ///@{

@@ -17,6 +17,16 @@
 namespace freespace
 {
 
+/// Sets an algorithm's error code, which only its class may do otherwise.
+inline void SetErrorCodeOf(vtkAlgorithm* algorithm, unsigned long code)
+{
+  struct Access : vtkAlgorithm
+  {
+    static void Set(vtkAlgorithm* to, unsigned long value) { (to->*&Access::SetErrorCode)(value); }
+  };
+  Access::Set(algorithm, code);
+}
+
 /// For a catch (...): the error code of a reader that failed, by its file.
 inline unsigned long ErrorCodeOf(const std::string& fileName)
 {
@@ -39,9 +49,14 @@ inline unsigned long ErrorCodeOf(const std::string& fileName)
 }
 
 /// Ends a RequestData that has reported an error: empties the outputs and marks them as not generated. VTK
-/// would take them for up to date, and a second update would report nothing. Returns the value to return.
+/// would take them for up to date, and a second update would report nothing. Sets the error code where the class
+/// has set none: UserError, since it is the input or a setting that is wrong. Returns the value to return.
 inline int AfterError(vtkAlgorithm* algorithm)
 {
+  if (algorithm->GetErrorCode() == vtkErrorCode::NoError)
+  {
+    SetErrorCodeOf(algorithm, vtkErrorCode::UserError);
+  }
   for (int port = 0; port < algorithm->GetNumberOfOutputPorts(); ++port)
   {
     vtkInformation* information = algorithm->GetExecutive()->GetOutputInformation(port);

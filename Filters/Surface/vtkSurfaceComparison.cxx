@@ -8,6 +8,7 @@
 #include "Mesh/Distance/SurfaceComparison.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -67,6 +68,7 @@ void vtkSurfaceComparison::SetLimits(const std::vector<double>& limits)
 int vtkSurfaceComparison::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkPolyData* outputs[2] = { vtkPolyData::GetData(outputVector, 0),
     vtkPolyData::GetData(outputVector, 1) };
   *this->Figures = {};

@@ -15,7 +15,8 @@ from freespace import queries
 
 # vtkErrorCode
 NO_ERROR, FILE_NOT_FOUND, CANNOT_OPEN, FILE_FORMAT, NO_FILE_NAME, OUT_OF_SPACE = 0, 20001, 20002, 20005, 20006, 20007
-READERS = ('vtkCameraReader', 'vtkEdgeStereoReader', 'vtkPhotographReader', 'vtkSparseModelReader', 'vtkSurfaceReader',
+USER_ERROR = 40000
+READERS = ('vtkCameraReader', 'vtkDepthMapReader', 'vtkEdgeStereoReader', 'vtkPhotographReader', 'vtkSparseModelReader', 'vtkSurfaceReader',
            'vtkViewBlocksReader')
 WRITERS = ('vtkOccupancyMapWriter', 'vtkSparseModelWriter', 'vtkSurfaceWriter', 'vtkTexturedSurfaceWriter',
            'vtkViewBlocksWriter')
@@ -83,6 +84,60 @@ class TestErrorCodes(unittest.TestCase):
                     self.assertEqual(reader.GetErrorCode(), wanted, value)
                     self.assertEqual(reader.GetOutputDataObject(0).GetNumberOfCells(), 0)
 
+    def test_a_calibration(self):
+        board = freespace.vtkBoardCalibration()
+        board.SetBoard('chessboard:9x6:0.025')
+        for value, wanted in ((None, NO_FILE_NAME), (self.path('absent.png'), FILE_NOT_FOUND),
+                              (self.path('bad.png', 'hello'), FILE_FORMAT)):
+            board.ClearFileNames()
+            if value:
+                board.AddFileName(value)
+            self.assertNotEqual(failing(board)[0], '', value)
+            self.assertEqual(board.GetErrorCode(), wanted, value)
+
+    def test_filters(self):
+        sphere = vtkSphereSource()
+        sphere.Update()
+        sphere = sphere.GetOutput()
+        views = freespace.make_views({'a': plane_view()})
+        maps = freespace.vtkDelaunayDisparityFilter()
+        maps.SetInputDataObject(views)
+        maps = freespace.update(maps)
+        point = vtkPolyData()
+        # Each with its inputs, a setting that it refuses and one that it takes.
+        cases = (('vtkDelaunayDisparityFilter', [views], 'Tolerance', -1, 0),
+                 ('vtkFeatureSupportFilter', [views], 'Radius', -1, 0.5),
+                 ('vtkFreespaceSurfaceFilter', [maps], 'Cells', -5, 16),
+                 ('vtkFitSurfaceFilter', [sphere, maps], 'Rounds', -1, 0),
+                 ('vtkSimplifySurfaceFilter', [sphere], 'Distance', -1, 0.1),
+                 ('vtkSurfaceComparison', [sphere, sphere], 'Bins', -1, 8),
+                 ('vtkSurfacePicture', [sphere], 'Zoom', -1, 1))
+        for name, inputs, setting, bad, good in cases:
+            with self.subTest(name=name):
+                algorithm = getattr(freespace, name)()
+                for port, data in enumerate(inputs):
+                    algorithm.SetInputDataObject(port, data)
+                getattr(algorithm, f'Set{setting}')(bad)
+                for _ in range(2):
+                    self.assertNotEqual(failing(algorithm)[0], '')
+                    self.assertEqual(algorithm.GetErrorCode(), USER_ERROR)
+                getattr(algorithm, f'Set{setting}')(good)
+                algorithm.Update()
+                self.assertEqual(algorithm.GetErrorCode(), NO_ERROR)
+        # Those without a setting to refuse.
+        contour = freespace.vtkBisectionContourFilter()
+        baker = freespace.vtkTextureBaker()
+        baker.SetInputDataObject(point)
+        merged = freespace.vtkMergeViewsFilter()
+        merged.SetInputDataObject(collection_of({'a': []}))
+        pieces = freespace.vtkAppendPiecesFilter()
+        pieces.AddInputDataObject(sphere)
+        pieces.AddInputDataObject(sphere)
+        for algorithm in (contour, baker, merged, pieces):
+            with self.subTest(name=algorithm.GetClassName()):
+                self.assertNotEqual(failing(algorithm)[0], '')
+                self.assertEqual(algorithm.GetErrorCode(), USER_ERROR)
+
     def test_a_reader_that_succeeds_again(self):
         reader = freespace.vtkSurfaceReader(file_name=self.path('absent.ply'))
         failing(reader)
@@ -147,6 +202,49 @@ class TestErrorCodes(unittest.TestCase):
         self.assertRegex(failing(overlay, 'Write')[0], 'folder has no name')
         self.assertEqual(overlay.GetErrorCode(), NO_FILE_NAME)
         self.assertEqual((overlay.GetImagesFolder(), overlay.GetOutputFolder(), proposal.GetModel()), ('', '', ''))
+
+
+class TestSettings(unittest.TestCase):
+    def test_numbers_are_kept_as_they_are_given(self):
+        """What is out of range is an error of the update, not another number; modes alone are clamped, as in VTK."""
+        modes = {'EveryImage', 'RefineCameras', 'RegionMode'}
+        count = 0
+        for module in (freespace.vtkFreespaceFilters, freespace.vtkFreespaceReaders, freespace.vtkFreespaceSurface,
+                       freespace.vtkFreespaceWriters):
+            for name in (it for it in dir(module) if it.startswith('vtk')):
+                thing = getattr(module, name)()
+                own = {it[3:] for it in dir(type(thing)) if it.startswith('Set')} - \
+                    {it[3:] for it in dir(type(thing).__mro__[1]) if it.startswith('Set')}
+                for setting in sorted(own - modes):
+                    if isinstance(getattr(thing, 'Get' + setting, lambda: None)(), (int, float)):
+                        with self.subTest(name=name, setting=setting):
+                            getattr(thing, 'Set' + setting)(-7)
+                            self.assertEqual(getattr(thing, 'Get' + setting)(), -7)
+                            count += 1
+        self.assertGreater(count, 60)
+
+    def test_modes_are_clamped(self):
+        for thing, mode, most in ((freespace.vtkEdgeStereoReader(), 'EveryImage', 2),
+                                  (freespace.vtkEdgeStereoReader(), 'RefineCameras', 2),
+                                  (freespace.vtkFreespaceUnion(), 'RegionMode', 2),
+                                  (freespace.vtkOccupancyMapWriter(), 'RegionMode', 2)):
+            for given, kept in ((-1, 0), (9, most)):
+                getattr(thing, 'Set' + mode)(given)
+                self.assertEqual(getattr(thing, 'Get' + mode)(), kept)
+
+    def test_file_names_are_paths(self):
+        from pathlib import Path
+        for name in READERS + WRITERS:
+            thing = getattr(freespace, name)()
+            self.assertEqual(thing.GetFileName(), '')
+            thing.SetFileName(Path('folder') / 'file')
+            self.assertEqual(thing.GetFileName(), os.path.join('folder', 'file'))
+            time = thing.GetMTime()
+            thing.SetFileName('folder/file')
+            self.assertEqual(thing.GetMTime(), time)
+            thing.SetFileName(None)
+            self.assertEqual(thing.GetFileName(), '')
+            self.assertGreater(thing.GetMTime(), time)
 
 
 class TestRepeatedTriangles(unittest.TestCase):

@@ -272,13 +272,17 @@ class TestOccupancyMapWriter(unittest.TestCase):
     def test_settings(self):
         writer = freespace.vtkOccupancyMapWriter()
         self.assertEqual((writer.GetResolution(), writer.GetHullMargin(), writer.GetMinimumViews()), (0, -1, -1))
-        writer.SetResolution(-1)
-        self.assertEqual(writer.GetResolution(), 0)
         writer = self.writer('map.bt')
         writer.SetMinimumViews(0)
         told = errors_of(writer)
         self.assertEqual(writer.Write(), 0)
         self.assertIn('minimum number of views', told[0])
+        for resolution in (-1, float('nan'), float('inf')):
+            writer = self.writer('map.bt')
+            writer.SetResolution(resolution)
+            told = errors_of(writer)
+            self.assertEqual(writer.Write(), 0)
+            self.assertIn('resolution', told[0])
 
 
 if __name__ == '__main__':
