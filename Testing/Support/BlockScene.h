@@ -114,7 +114,7 @@ struct BlockScene
         }
         for (const double value : sum)
         {
-          photograph.rgb.push_back(static_cast<unsigned char>(value + 0.5));
+          photograph.rgb.push_back(static_cast<unsigned char>(std::lround(value)));
         }
       }
     }

@@ -49,7 +49,7 @@ inline SparseModel MakeSyntheticModel(int images, int points, LensModel lens = L
   for (int i = 0; i < points; ++i)
   {
     SparsePoint& point = model.points.emplace_back();
-    point.id = static_cast<std::uint64_t>(10 + 2 * i);
+    point.id = 10 + 2 * static_cast<std::uint64_t>(i);
     point.position = { coordinate(random), coordinate(random), coordinate(random) };
     point.color = { static_cast<std::uint8_t>(i % 256), 7, 255 };
     point.error = 0.125 * (i % 5);

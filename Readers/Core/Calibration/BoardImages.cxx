@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 cv::Mat ReadGrayImage(const std::string& file)
 {
-  const cv::Mat gray = IsFile(file) ? DecodeImage(file, false) : cv::Mat();
+  cv::Mat gray = IsFile(file) ? DecodeImage(file, false) : cv::Mat();
   if (gray.empty())
   {
     throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");
