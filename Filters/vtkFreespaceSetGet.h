@@ -30,6 +30,9 @@
   }
 
 #define vtkGetFilePathStringMacro(name)                                                            \
-  virtual VTK_FILEPATH std::string Get##name() { return this->name; }
+  virtual VTK_FILEPATH std::string Get##name()                                                     \
+  {                                                                                                \
+    return this->name;                                                                             \
+  }
 
 #endif

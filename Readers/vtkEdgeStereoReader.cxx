@@ -2,8 +2,10 @@
 #include "vtkEdgeStereoReader.h"
 
 #include "ClusterOptions.h"
+#include "Blocks/ImageBlocks.h"
 #include "Common/Error.h"
 #include "Data/ViewBlocks.h"
+#include "Data/ViewInput.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
@@ -15,6 +17,8 @@
 #include "vtkClusterProposal.h"
 
 #include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -66,6 +70,10 @@ std::vector<std::string> FilesOf(const freespace::Scene& scene)
 {
   std::set<std::string> files;
   std::error_code error;
+  if (scene.pixels)
+  {
+    return {};
+  }
   for (const auto& entry : std::filesystem::directory_iterator(scene.ModelFolder(), error))
   {
     files.insert(entry.path().string());
@@ -119,10 +127,35 @@ std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene&
 
 vtkEdgeStereoReader::vtkEdgeStereoReader()
 {
-  this->SetNumberOfInputPorts(0);
+  this->SetNumberOfInputPorts(1);
 }
 
 vtkEdgeStereoReader::~vtkEdgeStereoReader() = default;
+
+int vtkEdgeStereoReader::FillInputPortInformation(int, vtkInformation* info)
+{
+  freespace::AcceptViews(info);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+void vtkEdgeStereoReader::AddTriplet(const std::string& cluster, const std::string& first,
+  const std::string& reference, const std::string& last)
+{
+  this->Triplets.push_back({ cluster, first, reference, last });
+  this->Modified();
+}
+
+void vtkEdgeStereoReader::RemoveAllTriplets()
+{
+  this->Triplets.clear();
+  this->Modified();
+}
+
+int vtkEdgeStereoReader::GetNumberOfTriplets()
+{
+  return static_cast<int>(this->Triplets.size());
+}
 
 vtkCxxSetSmartPointerMacro(vtkEdgeStereoReader, ClusterProposal, vtkClusterProposal);
 
@@ -170,8 +203,29 @@ freespace::EdgeStereoOptions vtkEdgeStereoReader::StereoOptions() const
   return options;
 }
 
+// The scene of the connected images.
+freespace::MemoryScene vtkEdgeStereoReader::SceneOf(vtkInformationVector* images) const
+{
+  if (!this->FileName.empty())
+  {
+    throw freespace::Error("Images are connected, and there is the scene " + this->FileName + ".");
+  }
+  std::vector<freespace::Cluster> clusters;
+  for (const auto& [name, first, reference, last] : this->Triplets)
+  {
+    auto cluster = std::find_if(clusters.begin(), clusters.end(),
+      [&name = name](const freespace::Cluster& known) { return known.name == name; });
+    if (cluster == clusters.end())
+    {
+      cluster = clusters.insert(clusters.end(), freespace::Cluster{ name, reference, {} });
+    }
+    cluster->triplets.push_back({ first, reference, last });
+  }
+  return { freespace::ImagesFromBlocks(freespace::ViewsOf(images)), std::move(clusters) };
+}
+
 int vtkEdgeStereoReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   this->FilesRead.clear();
@@ -179,20 +233,37 @@ int vtkEdgeStereoReader::RequestData(
   this->ImageSummary.clear();
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   this->SetErrorCode(vtkErrorCode::NoError);
+  const bool isInMemory = inputVector[0]->GetNumberOfInformationObjects() > 0;
   try
   {
     const freespace::EdgeStereoOptions options = this->StereoOptions();
-    const freespace::Scene given = freespace::ReadScene(this->FileName);
+    freespace::Scene given;
+    freespace::SparseModel model;
+    if (isInMemory)
+    {
+      freespace::MemoryScene memory = this->SceneOf(inputVector[0]);
+      given = std::move(memory.scene);
+      model = std::move(memory.model);
+    }
+    else if (!this->Triplets.empty())
+    {
+      throw freespace::Error("There are triplets, but no images are connected.");
+    }
+    else
+    {
+      given = freespace::ReadScene(this->FileName);
+      model = freespace::ReadSceneModel(given, &this->ImageSummary);
+    }
     const SingleThreadedOpenCV guard;
     freespace::EdgeStore edges(given, options.edges);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
-    freespace::CheckedScene checked = freespace::CheckScene(given, edges, options.matching,
-      this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
-                            : freespace::ClusterProposalOptions(),
-      this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
+    freespace::CheckedScene checked =
+      freespace::CheckScene(given, std::move(model), edges, options.matching,
+        this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
+                              : freespace::ClusterProposalOptions(),
+        this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
     freespace::Scene& scene = checked.scene;
     this->ClusterSummary = checked.choice;
-    this->ImageSummary = checked.scaled;
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
@@ -218,7 +289,10 @@ int vtkEdgeStereoReader::RequestData(
   }
   catch (...)
   {
-    this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    if (!isInMemory)
+    {
+      this->SetErrorCode(freespace::ErrorCodeOf(this->FileName));
+    }
     return freespace::AfterException(this);
   }
   return 1;
@@ -228,6 +302,7 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "NumberOfTriplets: " << this->Triplets.size() << "\n";
   os << indent << "MinimumDepth: " << this->MinimumDepth << "\n";
   os << indent << "MaximumDepth: " << this->MaximumDepth << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";

@@ -16,6 +16,13 @@
  * The depths that are searched are those between MinimumDepth and MaximumDepth that the cameras of
  * the triplets see in common. Lens distortion is removed from the edges' positions.
  *
+ * Instead of a scene.json, images in memory may be connected: a vtkMultiBlockDataSet (or
+ * vtkPartitionedDataSetCollection) of vtkImageData as vtkPhotographReader generates it, each block named after its
+ * image and with the field data CameraIntrinsics, CameraFromWorld and ImageSize. They are free of lens distortion,
+ * grey or colour, the bottom row first as in VTK; more than 8 bits are brought to 8 by the range of their numbers.
+ * AddTriplet makes their clusters; without any these are proposed from the cameras. The features are those of the
+ * same scene on disk.
+ *
  * Output: a vtkMultiBlockDataSet, one vtkPolyData for each cluster and named after it. Points are
  * the features in world coordinates; each is a vertex cell, each chain of features along an edge is
  * a polyline.
@@ -51,7 +58,7 @@
  *
  * C. J. Taylor, "Surface Reconstruction from Feature Based Stereo", ICCV 2003, section 3.
  *
- * @sa vtkClusterProposal vtkDelaunayDisparityFilter vtkFeatureOverlayWriter
+ * @sa vtkPhotographReader vtkClusterProposal vtkDelaunayDisparityFilter vtkFeatureOverlayWriter
  *
  * @warning Only edges are matched. A surface without texture has features at its outline only, and
  * highlights and reflections are matched as if they were on the surface.
@@ -65,6 +72,7 @@
 
 #include "vtkSmartPointer.h" // for the cluster proposal
 
+#include <array>  // for Triplets
 #include <string> // for FileName
 #include <vector> // for FilesRead
 
@@ -73,6 +81,7 @@ class vtkClusterProposal;
 namespace freespace
 {
 struct EdgeStereoOptions;
+struct MemoryScene;
 }
 
 class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
@@ -84,10 +93,21 @@ public:
 
   ///@{
   /**
-   * The scene.json to read.
+   * The scene.json to read; none where images are connected.
    */
   vtkSetFilePathStringMacro(FileName);
   vtkGetFilePathStringMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Clusters of connected images: a triplet of images about in a row, by the names of their blocks, the
+   * reference in the middle. Triplets of one cluster have the same reference. Default: none.
+   */
+  void AddTriplet(const std::string& cluster, const std::string& first,
+    const std::string& reference, const std::string& last);
+  void RemoveAllTriplets();
+  int GetNumberOfTriplets();
   ///@}
 
   ///@{
@@ -246,9 +266,11 @@ protected:
   vtkEdgeStereoReader();
   ~vtkEdgeStereoReader() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::string FileName;
+  std::vector<std::array<std::string, 4>> Triplets; // cluster, first, reference, last
   double MinimumDepth = 0.0;
   double MaximumDepth = 0.0;
   double Smoothing = 1.0;
@@ -265,6 +287,7 @@ protected:
 
 private:
   freespace::EdgeStereoOptions StereoOptions() const;
+  freespace::MemoryScene SceneOf(vtkInformationVector* images) const;
 
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
   void operator=(const vtkEdgeStereoReader&) = delete;

@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Views go from numpy to VTK and back unchanged."""
+"""Views go from numpy to VTK and back unchanged; images in arrays give the features that their files give."""
+import json
+import os
+import tempfile
 import unittest
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import freespace
+
+SCENE = os.environ['FREESPACE_SCENE']
+PINHOLE = np.array([[40., 0, 10], [0, 40, 8], [0, 0, 1]])
 
 
 def random_view(rng, n):
@@ -70,6 +77,83 @@ class TestArrays(unittest.TestCase):
         kept = freespace.views(support.GetOutput())['a']
         np.testing.assert_array_equal(kept['image_points'], pixels[:4])
         np.testing.assert_array_equal(kept['Support'], [3, 3, 3, 3])
+
+
+class TestImagesInMemory(unittest.TestCase):
+    def scene(self, clusters):
+        """The example scene with its first clusters."""
+        with open(SCENE) as file:
+            scene = json.load(file)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        for name in ('images', 'model'):
+            scene[name] = os.path.join(os.path.dirname(SCENE), scene[name])
+        scene['clusters'] = scene['clusters'][:clusters]
+        path = os.path.join(folder.name, 'scene.json')
+        with open(path, 'w') as file:
+            json.dump(scene, file)
+        return path, scene['clusters']
+
+    def arrays(self, path):
+        """Of each image: its name, pixels from the top, K and cam_from_world."""
+        blocks = freespace.update(freespace.vtkPhotographReader(file_name=path))
+        for i in range(blocks.GetNumberOfBlocks()):
+            image = blocks.GetBlock(i)
+            width, height, _ = image.GetDimensions()
+            pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
+            field = image.GetFieldData()
+            yield (field.GetAbstractArray('ImageFile').GetValue(0), pixels,
+                   vtk_to_numpy(field.GetArray('CameraIntrinsics')).reshape(3, 3),
+                   vtk_to_numpy(field.GetArray('CameraFromWorld')).reshape(3, 4))
+
+    def test_numpy_arrays_give_the_same_features(self):
+        path, clusters = self.scene(2)
+        stereo = freespace.vtkEdgeStereoReader()
+        stereo.SetInputDataObject(freespace.make_views(
+            {name: freespace.make_image(pixels, K, pose) for name, pixels, K, pose in self.arrays(path)}))
+        for cluster in clusters:
+            for triplet in cluster['triplets']:
+                stereo.AddTriplet(cluster['name'], *triplet)
+        self.assertEqual(stereo.GetNumberOfTriplets(), 4)
+        found = freespace.views(freespace.update(stereo))
+        expected = freespace.views(freespace.update(freespace.vtkEdgeStereoReader(file_name=path)))
+        self.assertEqual(list(found), list(expected))
+        for name, view in expected.items():
+            self.assertGreater(len(view['points']), 1000)
+            for key, value in view.items():
+                np.testing.assert_array_equal(found[name][key], value, f'{key} of {name}')
+
+    def test_clusters_are_proposed(self):
+        path, _ = self.scene(1)
+        stereo = freespace.vtkEdgeStereoReader(every_image=0, refine_cameras=0, check_images=False)
+        stereo.SetInputDataObject(freespace.make_views(
+            {name: freespace.make_image(pixels, K, pose) for name, pixels, K, pose in self.arrays(path)
+             if name.startswith('cluster1')}))
+        views = freespace.views(freespace.update(stereo))
+        self.assertIn('reference', stereo.GetClusterSummary())
+        self.assertGreater(len(views), 0)
+
+    def test_pixels_are_where_they_were(self):
+        pixels = np.arange(6 * 4 * 3, dtype=np.uint8).reshape(4, 6, 3)
+        for given in (pixels, pixels[:, :, 0], pixels.astype(np.float32)):
+            image = freespace.make_image(given, PINHOLE, np.eye(3, 4))
+            for row, column in ((0, 0), (1, 4), (3, 5)):
+                self.assertEqual(image.GetScalarComponentAsDouble(column, 3 - row, 0, 0),
+                                 np.atleast_3d(given)[row, column, 0])
+        pixels[:] = 0  # the image holds its own
+        self.assertGreater(image.GetScalarComponentAsDouble(5, 0, 0, 0), 0)
+
+    def test_what_is_no_image(self):
+        for pixels in (np.zeros((4, 6, 2), np.uint8), np.zeros(4, np.uint8), np.zeros((0, 6), np.uint8),
+                       np.zeros((4, 6), np.int64)):
+            with self.assertRaises(ValueError):
+                freespace.make_image(pixels, PINHOLE, np.eye(3, 4))
+        with self.assertRaises(ValueError):
+            freespace.make_image(np.zeros((4, 6), np.uint8), PINHOLE.T, np.eye(3, 4))
+        stereo = freespace.vtkEdgeStereoReader()
+        stereo.SetInputDataObject(freespace.make_views({}))
+        with self.assertRaisesRegex(freespace.Error, 'There are no images'):
+            freespace.update(stereo)
 
 
 if __name__ == '__main__':

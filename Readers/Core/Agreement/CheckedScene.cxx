@@ -8,6 +8,7 @@
 #include "Scene/SceneClusters.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace freespace
 {
@@ -68,13 +69,13 @@ void CheckMasks(const Scene& scene, const SparseModel& model, std::vector<std::s
 
 }
 
-CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptions& matching,
-  const ClusterProposalOptions& clusters, bool check, const ParallelFor& parallelFor,
-  const Progress& progress)
+CheckedScene CheckScene(const Scene& scene, SparseModel model, EdgeStore& edges,
+  const MatcherOptions& matching, const ClusterProposalOptions& clusters, bool check,
+  const ParallelFor& parallelFor, const Progress& progress)
 {
   CheckedScene checked;
   checked.given = scene;
-  checked.model = ReadSceneModel(scene, &checked.scaled);
+  checked.model = std::move(model);
   CheckMasks(scene, checked.model, checked.warnings);
   const std::size_t all = checked.model.images.size();
   const auto misprojected =

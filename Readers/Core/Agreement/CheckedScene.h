@@ -18,7 +18,6 @@ struct CheckedScene
   Scene scene;          ///< the same, or with proposed clusters
   SparseModel model;    ///< of the right images
   std::string choice;   ///< what DescribeChoice says about proposed clusters
-  std::string scaled;   ///< what ScaleToPhotographs says
   ClusterTracks tracks; ///< what FindWrongImages matched; none where it found some
   std::vector<std::string> warnings; ///< a sentence each, which names the images that are left out
 };
@@ -28,10 +27,10 @@ struct CheckedScene
 /// (FindWrongImages). Proposes clusters of the right images where the scene names none; those that it
 /// names are made of the right images (WithoutImages).
 ///
-/// Throws Error when no cluster is left or can be proposed, and what the steps throw.
-CheckedScene CheckScene(const Scene& scene, EdgeStore& edges, const MatcherOptions& matching,
-  const ClusterProposalOptions& clusters, bool check, const ParallelFor& parallelFor,
-  const Progress& progress);
+/// `model` is the scene's (ReadSceneModel, MemoryScene). Throws Error when no cluster is left or can be proposed, and what the steps throw.
+CheckedScene CheckScene(const Scene& scene, SparseModel model, EdgeStore& edges,
+  const MatcherOptions& matching, const ClusterProposalOptions& clusters, bool check,
+  const ParallelFor& parallelFor, const Progress& progress);
 
 }
 

@@ -53,7 +53,7 @@ std::shared_ptr<const Photograph> PhotographStore::Find(const CalibratedImage& i
 Photograph PhotographStore::Read(const CalibratedImage& image) const
 {
   Photograph photograph =
-    MakePhotograph(ReadUndistortedImage(this->Source.ImagePath(image.file), image));
+    MakePhotograph(Undistorted(this->Source.Pixels(image), image, cv::INTER_CUBIC));
   const std::string path = this->Source.MaskPath(image.file);
   const cv::Mat mask =
     path.empty() ? cv::Mat() : LoadMask(path, image.camera.width, image.camera.height);

@@ -148,6 +148,7 @@ SparseModel WithCameras(SparseModel model, const std::vector<CalibratedImage>& i
     const Camera& camera = images[i].camera;
     const Eigen::Quaterniond q(camera.R);
     model.images[i].rotation = { q.w(), q.x(), q.y(), q.z() };
+    model.images[i].matrix.reset();
     model.images[i].translation = camera.t;
     SparseCamera& lens = *cameras.at(model.images[i].camera);
     lens.parameters[0] = camera.K(0, 0);

@@ -5,6 +5,7 @@
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
 #include "Files/NameEncoding.h"
+#include "Images/ImageFile.h"
 #include "ModelFiles/ForeignModel.h"
 #include "ModelFiles/ReadSparseModel.h"
 #include "Scene/ScaledImages.h"
@@ -270,6 +271,20 @@ std::string Scene::MaskPath(const std::string& image) const
 std::string Scene::ImagePath(const std::string& image) const
 {
   return (fs::path(this->ImagesFolder()) / image).string();
+}
+
+cv::Mat Scene::Pixels(const CalibratedImage& image) const
+{
+  if (!this->pixels)
+  {
+    return LoadImage(this->ImagePath(image.file), image.camera.width, image.camera.height);
+  }
+  const auto found = this->pixels->find(image.file);
+  if (found == this->pixels->end())
+  {
+    throw Error("There is no image " + image.file + ".");
+  }
+  return found->second;
 }
 
 Scene ReadScene(const std::string& path)

@@ -5,7 +5,11 @@
 #include "Images/CalibratedImage.h"
 #include "SparseModel/SparseModel.h"
 
+#include <opencv2/core.hpp>
+
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,11 +70,16 @@ struct Scene
   std::string masks;             ///< folder of the masks as the file gives it; empty: none
   std::vector<Cluster> clusters; ///< empty when the file has none: they are to be proposed
   std::optional<Board> board;
+  /// The images by name, where they are in memory (MemoryScene): blue, green, red. Null: they are files.
+  std::shared_ptr<const std::map<std::string, cv::Mat>> pixels;
 
   /// The folders, ready to be opened.
   std::string ImagesFolder() const;
   std::string ModelFolder() const;
   std::string ImagePath(const std::string& image) const;
+
+  /// The image as its camera took it: blue, green, red. Throws Error naming it as LoadImage does.
+  cv::Mat Pixels(const CalibratedImage& image) const;
 
   /// The image's mask, which need not exist; empty where the scene has no masks.
   std::string MaskPath(const std::string& image) const;

@@ -12,7 +12,7 @@ namespace freespace
 
 SparseModel WithExistingPhotographs(const Scene& scene, SparseModel model)
 {
-  if (!IsFolder(scene.ImagesFolder()))
+  if (scene.pixels || !IsFolder(scene.ImagesFolder()))
   {
     return model;
   }

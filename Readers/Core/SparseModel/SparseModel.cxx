@@ -77,7 +77,8 @@ void SetLens(const SparseCamera& from, CalibratedImage& to)
 void SetPose(const SparseImage& from, CalibratedImage& to)
 {
   const auto& [w, x, y, z] = from.rotation;
-  to.camera.R = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  to.camera.R =
+    from.matrix.value_or(Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix());
   to.camera.t = from.translation;
 }
 

@@ -73,6 +73,8 @@ struct SparseImage
   std::array<double, 4> rotation = { 1, 0, 0, 0 }; ///< cam_from_world, quaternion w x y z
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::vector<SparseObservation> observations;
+  /// The rotation where it was given as a matrix: the quaternion's differs in the last bits.
+  std::optional<Eigen::Matrix3d> matrix;
 };
 
 /// One element of a point's track.

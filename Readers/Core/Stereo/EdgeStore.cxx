@@ -2,7 +2,6 @@
 #include "Stereo/EdgeStore.h"
 
 #include "Edges/MaskedEdges.h"
-#include "Images/ImageFile.h"
 #include "Images/ImageMask.h"
 #include "Images/LensDistortion.h"
 
@@ -67,8 +66,7 @@ std::shared_ptr<const EdgeChains> EdgeStore::Edges(const CalibratedImage& image)
 EdgeChains EdgeStore::Find(const CalibratedImage& image) const
 {
   const int width = image.camera.width, height = image.camera.height;
-  EdgeChains edges =
-    FindEdges(LoadImage(this->Source.ImagePath(image.file), width, height), this->Options);
+  EdgeChains edges = FindEdges(this->Source.Pixels(image), this->Options);
   if (const std::string mask = this->Source.MaskPath(image.file); !mask.empty())
   {
     edges = EdgesOutside(edges, LoadMask(mask, width, height), this->Options.minimumLength);

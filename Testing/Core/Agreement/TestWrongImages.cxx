@@ -78,8 +78,8 @@ public:
   {
     const Scene scene = ReadScene(this->Path);
     EdgeStore edges(scene, EdgeTokenOptions());
-    return CheckScene(
-      scene, edges, MatcherOptions(), ClusterProposalOptions(), check, SerialFor, Progress());
+    return CheckScene(scene, ReadSceneModel(scene), edges, MatcherOptions(),
+      ClusterProposalOptions(), check, SerialFor, Progress());
   }
 
   TemporaryFolder Folder;

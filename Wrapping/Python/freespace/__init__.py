@@ -10,11 +10,11 @@ are in the unit of the camera model, image points in pixels, (0.5, 0.5) the cent
 Importing this package also makes pictures possible without a display.
 """
 from . import classes, queries
-from .arrays import make_view, make_views, surface_arrays, view_arrays, views
+from .arrays import make_image, make_view, make_views, surface_arrays, view_arrays, views
 from .classes import *
 from .reconstruction import reconstruct
 from .update import Error, update
 from .version import __version__
 
-__all__ = ['Error', 'make_view', 'make_views', 'queries', 'reconstruct', 'surface_arrays', 'update', 'view_arrays',
-           'views', '__version__', *classes.__all__]
+__all__ = ['Error', 'make_image', 'make_view', 'make_views', 'queries', 'reconstruct', 'surface_arrays', 'update',
+           'view_arrays', 'views', '__version__', *classes.__all__]

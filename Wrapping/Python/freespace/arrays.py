@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Views and surfaces as numpy arrays, and views from numpy arrays."""
+"""Views and surfaces as numpy arrays, and views and images from numpy arrays."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet, \
+    vtkPolyData
 
 
 def view_arrays(block):
@@ -50,6 +51,34 @@ def make_view(points, image_points, K, cam_from_world, size, image_file=''):
     vertices.SetData(_ids(np.arange(n + 1)), _ids(np.arange(n)))
     block.SetVerts(vertices)
     block.GetPointData().AddArray(_named(image_points, 'ImagePoint'))
+    _add_camera(block, K, cam_from_world, size, image_file)
+    return block
+
+
+def make_image(pixels, K, cam_from_world):
+    """An image's block for vtkEdgeStereoReader, vtkTextureBaker or vtkViewDependentTextureMapper.
+
+    pixels is (height, width) grey, (height, width, 3) red, green, blue or (height, width, 4) with alpha, the top row
+    first, of uint8, uint16, float32 or float64. make_views makes a data set of several. Raises ValueError as
+    make_view does.
+    """
+    pixels = np.asarray(pixels)
+    if pixels.ndim not in (2, 3) or pixels.size == 0 or (pixels.ndim == 3 and pixels.shape[2] not in (1, 3, 4)):
+        raise ValueError(f'pixels has the shape {pixels.shape}, expected (height, width) and 1, 3 or 4 channels')
+    if pixels.dtype not in (np.uint8, np.uint16, np.float32, np.float64):
+        raise ValueError(f'pixels has the type {pixels.dtype}, expected uint8, uint16, float32 or float64')
+    K = np.asarray(K, np.float64)
+    cam_from_world = np.asarray(cam_from_world, np.float64)
+    _check_camera(K, cam_from_world)
+    height, width = pixels.shape[:2]
+    image = vtkImageData()
+    image.SetDimensions(width, height, 1)
+    image.GetPointData().SetScalars(_named(pixels[::-1].reshape(height * width, -1), 'Pixels'))
+    _add_camera(image, K, cam_from_world, (width, height), '')
+    return image
+
+
+def _add_camera(block, K, cam_from_world, size, image_file):
     field = block.GetFieldData()
     field.AddArray(_named(np.asarray(K, float).reshape(1, 9), 'CameraIntrinsics'))
     field.AddArray(_named(np.asarray(cam_from_world, float).reshape(1, 12), 'CameraFromWorld'))
@@ -58,7 +87,6 @@ def make_view(points, image_points, K, cam_from_world, size, image_file=''):
     file.SetName('ImageFile')
     file.InsertNextValue(image_file)
     field.AddArray(file)
-    return block
 
 
 def rows(array, columns, name):

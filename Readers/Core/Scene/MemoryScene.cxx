@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Scene/MemoryScene.h"
+
+#include "Common/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace freespace
+{
+
+namespace
+{
+
+void Check(const MemoryImage& image)
+{
+  const Camera& camera = image.camera;
+  const Eigen::Matrix3d& K = camera.K;
+  const bool isPinhole = K.allFinite() && K(0, 0) > 0 && K(1, 1) > 0 && K(0, 1) == 0 &&
+    K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
+  if (!isPinhole)
+  {
+    throw Error("The image " + image.name +
+      " has intrinsics that are not those of a pinhole camera without skew.");
+  }
+  if (!camera.R.allFinite() || !camera.t.allFinite() || !camera.R.isUnitary(1e-4) ||
+    camera.R.determinant() < 0)
+  {
+    throw Error("The image " + image.name + " has a pose that is no rotation and translation.");
+  }
+  if (image.pixels.empty() || image.pixels.cols != camera.width ||
+    image.pixels.rows != camera.height)
+  {
+    throw Error("The image " + image.name + " has " + std::to_string(image.pixels.cols) + " x " +
+      std::to_string(image.pixels.rows) + " pixels, but its camera has " +
+      std::to_string(camera.width) + " x " + std::to_string(camera.height) + ".");
+  }
+}
+
+// The number of the camera that the images of these intrinsics share.
+std::uint32_t LensOf(const Camera& camera, SparseModel& model)
+{
+  const Eigen::Matrix3d& K = camera.K;
+  SparseCamera lens;
+  lens.id = static_cast<std::uint32_t>(model.cameras.size() + 1);
+  lens.width = static_cast<std::uint64_t>(camera.width);
+  lens.height = static_cast<std::uint64_t>(camera.height);
+  lens.parameters = { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
+  const auto same = std::find_if(model.cameras.begin(), model.cameras.end(),
+    [&](const SparseCamera& known)
+    {
+      return known.width == lens.width && known.height == lens.height &&
+        known.parameters == lens.parameters;
+    });
+  if (same != model.cameras.end())
+  {
+    return same->id;
+  }
+  model.cameras.push_back(lens);
+  return lens.id;
+}
+
+void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images)
+{
+  for (const auto& triplet : cluster.triplets)
+  {
+    for (const std::string& name : triplet)
+    {
+      if (!images.count(name))
+      {
+        throw Error("The cluster " + cluster.name + " names an image that is not there, " + name +
+          ".");
+      }
+    }
+    if (triplet[1] != cluster.reference)
+    {
+      throw Error("The cluster " + cluster.name + " has the references " + cluster.reference +
+        " and " + triplet[1] + ".");
+    }
+    if (triplet[0] == triplet[1] || triplet[1] == triplet[2] || triplet[2] == triplet[0])
+    {
+      throw Error("The cluster " + cluster.name + " has a triplet with an image twice.");
+    }
+  }
+  if (cluster.triplets.empty())
+  {
+    throw Error("The cluster " + cluster.name + " has no triplet.");
+  }
+}
+
+}
+
+MemoryScene::MemoryScene(const std::vector<MemoryImage>& images, std::vector<Cluster> clusters)
+{
+  if (images.empty())
+  {
+    throw Error("There are no images.");
+  }
+  std::map<std::string, cv::Mat> pixels;
+  for (const MemoryImage& given : images)
+  {
+    Check(given);
+    if (!pixels.emplace(given.name, given.pixels).second)
+    {
+      throw Error("Two images are called " + given.name + ".");
+    }
+    SparseImage& image = this->model.images.emplace_back();
+    image.id = static_cast<std::uint32_t>(this->model.images.size());
+    image.name = given.name;
+    image.camera = LensOf(given.camera, this->model);
+    const Eigen::Quaterniond q(given.camera.R);
+    image.rotation = { q.w(), q.x(), q.y(), q.z() };
+    image.matrix = given.camera.R;
+    image.translation = given.camera.t;
+  }
+  std::set<std::string> names;
+  for (const Cluster& cluster : clusters)
+  {
+    Check(cluster, pixels);
+    if (!names.insert(cluster.name).second)
+    {
+      throw Error("Two clusters are called " + cluster.name + ".");
+    }
+  }
+  this->scene.file = "in memory";
+  this->scene.clusters = std::move(clusters);
+  this->scene.pixels = std::make_shared<const std::map<std::string, cv::Mat>>(std::move(pixels));
+}
+
+}
