@@ -9,7 +9,7 @@ class vtkClusterProposal;
 namespace freespace
 {
 
-/// The parameters that a vtkClusterProposal was given.
+/// The parameters of a vtkClusterProposal.
 ClusterProposalOptions ClusterOptionsOf(vtkClusterProposal* proposal);
 
 }

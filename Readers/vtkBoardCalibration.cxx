@@ -51,7 +51,7 @@ std::string CommonFolder(const std::vector<std::string>& files)
   return common.string();
 }
 
-// Every corner of every picture.
+// Every corner of every image.
 std::vector<freespace::SparseView> ViewsOf(const freespace::SparseModel& model)
 {
   freespace::SparseViewOptions options;
@@ -115,7 +115,7 @@ int vtkBoardCalibration::RequestData(
   {
     if (this->FileNames.empty())
     {
-      throw freespace::Error("There are no pictures to calibrate from.");
+      throw freespace::Error("There are no images to calibrate from.");
     }
     freespace::BoardCalibrationOptions options;
     options.board = freespace::BoardFromText(this->Board);

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkBoardCalibration
- * @brief calibrate a camera from pictures of a ChArUco board or a chessboard
+ * @brief calibrate a camera from images of a ChArUco board or a chessboard
  *
- * Section 3 of the paper takes its cameras from a calibration grid in the pictures. This class finds
- * the board in each picture and calibrates: the intrinsics with the lens's distortion, and the pose
- * of every picture. A ChArUco board may be partly hidden; of a chessboard all inner corners must be
- * seen. Pictures without the board are left out; corners that do not fit are dropped. All
- * pictures of one size are taken to be one camera's, and at least three of them must show the board.
+ * Section 3 of the paper takes its cameras from a calibration grid in the images. This class finds
+ * the board in each image and calibrates: the intrinsics with the lens's distortion, and the pose
+ * of every image. A ChArUco board may be partly hidden; of a chessboard all inner corners must be
+ * seen. Images without the board are left out; corners that do not fit are dropped. All
+ * images of one size are assumed to be of one camera, and at least three of them must show the board.
  *
- * The corners of the board are found with OpenCV and then, once the camera is about known, again by
- * following the four edges that meet in each. As much distortion is estimated as the corners call for,
- * MaximumCoefficients at most: the Bayesian information criterion decides.
+ * The corners of the board are detected with OpenCV and, once the camera is approximately known, again by
+ * following the four edges that meet in each. The number of distortion coefficients, MaximumCoefficients at
+ * most, is chosen by the Bayesian information criterion.
  *
- * The world is the board's: the origin in its middle, x along its columns, y up along its rows, z out
- * of it towards the cameras, lengths in the unit of its squares.
+ * World coordinates are those of the board: the origin in its centre, x along its columns, y up along its
+ * rows, z towards the cameras, lengths in the unit of its squares.
  *
- * Output: a vtkMultiBlockDataSet as vtkSparseModelReader's, one view for each picture in which the
+ * Output: a vtkMultiBlockDataSet as vtkSparseModelReader's, one view for each image in which the
  * board was found; its features are the corners of the board. vtkSparseModelWriter writes it as a
- * COLMAP model. The names of the pictures are relative to GetImagesFolder(), the folder that holds them
+ * COLMAP model. The names of the images are relative to GetImagesFolder(), the folder that holds them
  * all.
  *
- * A picture that cannot be read, a description of a board that makes no sense, and too few pictures
+ * An image that cannot be read, an invalid description of a board, and too few images
  * with the board are errors that name them; the output is then empty. After an abort it is empty, too.
  *
  * @sa vtkSparseModelWriter vtkEdgeStereoReader
@@ -45,7 +45,7 @@ public:
 
   ///@{
   /**
-   * The pictures.
+   * The images.
    */
   void AddFileName(VTK_FILEPATH const std::string& fileName);
   void ClearFileNames();
@@ -63,7 +63,7 @@ public:
 
   ///@{
   /**
-   * At most so many coefficients of distortion: 0, 1 (k1), 2 (k2), 4 (p1, p2) or 5 (k3). Default 5.
+   * Maximum number of distortion coefficients: 0, 1 (k1), 2 (k2), 4 (p1, p2) or 5 (k3). Default 5.
    */
   vtkSetMacro(MaximumCoefficients, int);
   vtkGetMacro(MaximumCoefficients, int);
@@ -80,36 +80,36 @@ public:
 
   ///@{
   /**
-   * A picture counts when so many corners are seen in it. Default 8.
+   * Minimum number of corners in an image that is used. Default 8.
    */
   vtkSetMacro(MinimumCorners, int);
   vtkGetMacro(MinimumCorners, int);
   ///@}
 
   /**
-   * After an Update: the reprojection error of all corners, root mean square in pixels.
+   * After an Update: the root mean square reprojection error of all corners, in pixels.
    */
   double GetReprojectionError();
 
   /**
-   * After an Update: a line for each picture with its number of corners and its reprojection error, or
+   * After an Update: a line for each image with its number of corners and its reprojection error, or
    * why it is not used, and a line for each camera with its intrinsics.
    */
   std::string GetText();
 
   /**
-   * After an Update: the folder that holds all pictures.
+   * After an Update: the folder that holds all images.
    */
   std::string GetImagesFolder();
 
   /**
-   * After an Update: write each picture with the corners that were found in it, as a .jpg into a folder
+   * After an Update: write each image with the corners that were found in it, as a .jpg into a folder
    * that is made when its last part is missing. Returns 1, or 0 after an error.
    */
   int WritePictures(VTK_FILEPATH const std::string& folder);
 
   /**
-   * After an Update: write a scene.json of the pictures, with the board, for a camera model in the
+   * After an Update: write a scene.json of the images, with the board, for a camera model in the
    * folder `model`. Returns 1, or 0 after an error.
    */
   int WriteScene(VTK_FILEPATH const std::string& fileName, const std::string& model);

@@ -40,7 +40,7 @@ public:
 
   /**
    * The block of an image in the output, or nullptr when the model does not have that image. Update
-   * first. The ending of the image's name may be left out where that is unambiguous.
+   * first. The extension of the image's name may be omitted where that is unambiguous.
    */
   vtkPolyData* GetView(const std::string& image);
 

@@ -74,7 +74,7 @@ int vtkClusterProposal::Propose()
     if (proposal.Empty())
     {
       throw freespace::Error("No clusters for " + scene.ModelFolder() +
-        ": no photograph has two neighbours at angles from " + std::to_string(this->MinimumAngle) +
+        ": no image has two neighbours at angles from " + std::to_string(this->MinimumAngle) +
         " to " + std::to_string(this->MaximumAngle) + " degrees that see the same.");
     }
     scene.clusters = freespace::ClustersFromProposal(model, proposal.clusters);
@@ -132,7 +132,7 @@ int vtkClusterProposal::WriteScene(const std::string& fileName)
     if (this->Chosen->scene.images.empty())
     {
       throw freespace::Error(
-        "Cannot write " + fileName + ": the folder of the photographs was not given.");
+        "Cannot write " + fileName + ": the folder of the images was not given.");
     }
     freespace::WriteScene(this->Chosen->scene, fileName);
   }

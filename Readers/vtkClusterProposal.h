@@ -4,20 +4,20 @@
  * @brief choose the clusters of images for edge stereo
  *
  * Section 3 of the paper takes clusters of five images, "in a cross", whose middle one is the
- * reference; a row of three or five will do too, and at its end a reference beside its neighbours. For
+ * reference; a row of three or five is accepted too, also with the reference at its end. For
  * each image of a scene this class looks for the neighbours that make the best cross, or else the best
- * row, by baseline, overlap and viewing angle: of those that stand about it, since one set's spacing is
- * not another's. Of all these clusters it keeps those that are worth their time: references keep a
- * separation, and in larger sets an image is left out that several references cover. Clusters that the
- * scene.json has are left out of account.
+ * row, by baseline, overlap and viewing angle, among the nearest ones, because the spacing differs between
+ * sets of images. Of all these clusters it keeps a subset: references keep a minimum
+ * separation, and in larger sets an image that several references cover is omitted. Clusters that the
+ * scene.json names are ignored.
  *
  * The depth of the scene and what images have in common come from the points of the camera model;
- * for an image without points from where the optical axes of its neighbours pass its own. Angles
- * are those at the scene between the rays to two images' centres: nothing here has the unit of the
- * model. Images whose photograph is missing from the folder of the images are not proposed, as long
- * as that folder exists at all.
+ * for an image without points, from the points where the optical axes of its neighbours pass its own
+ * most closely. Angles are between the rays from the scene to two camera centres, so that no parameter
+ * depends on the unit of the model. Images whose file is missing are not proposed, unless the folder of the images is missing
+ * altogether.
  *
- * Propose() reads the scene and chooses; the result can be printed (GetText, GetSummary), asked for, and
+ * Propose() reads the scene and chooses; the result can be printed (GetText, GetSummary), queried, and
  * saved as a scene.json (WriteScene). What cannot be read or written, and a scene in which no image has
  * two suitable neighbours, is an error that names the file; the functions then return 0.
  *
@@ -54,7 +54,7 @@ public:
   ///@{
   /**
    * Instead of a scene.json: the folder or file of a camera model, as vtkSparseModelReader reads it, and
-   * the folder of its photographs. FileName must then be empty.
+   * the folder of its images. FileName must then be empty.
    */
   vtkSetFilePathStringMacro(Model);
   vtkGetFilePathStringMacro(Model);
@@ -64,7 +64,7 @@ public:
 
   ///@{
   /**
-   * The best angle between the reference and a neighbour, in degrees. Default 5.
+   * Preferred angle between the reference and a neighbour, in degrees. Default 5.
    */
   vtkSetMacro(PreferredAngle, double);
   vtkGetMacro(PreferredAngle, double);
@@ -72,7 +72,7 @@ public:
 
   ///@{
   /**
-   * Neighbours at less than this angle are not taken, in degrees. Default 1.
+   * Minimum angle between the reference and a neighbour, in degrees. Default 1.
    */
   vtkSetMacro(MinimumAngle, double);
   vtkGetMacro(MinimumAngle, double);
@@ -80,7 +80,7 @@ public:
 
   ///@{
   /**
-   * Neighbours at more than this angle are not taken, in degrees. Default 30.
+   * Maximum angle between the reference and a neighbour, in degrees. Default 30.
    */
   vtkSetMacro(MaximumAngle, double);
   vtkGetMacro(MaximumAngle, double);
@@ -88,7 +88,7 @@ public:
 
   ///@{
   /**
-   * The least fraction of the reference's picture that a neighbour must see. Default 0.4.
+   * Minimum fraction of the reference's image that a neighbour sees. Default 0.4.
    */
   vtkSetMacro(MinimumOverlap, double);
   vtkGetMacro(MinimumOverlap, double);
@@ -96,8 +96,8 @@ public:
 
   ///@{
   /**
-   * With how many neighbours a reference is matched at most: 2 or 4, of which the second two stand across
-   * the first two or farther out. Default 4.
+   * Maximum number of neighbours with which a reference is matched: 2 or 4. The second two lie across the
+   * first two, or farther out on the same row. Default 4.
    */
   vtkSetMacro(Neighbors, int);
   vtkGetMacro(Neighbors, int);
@@ -105,8 +105,8 @@ public:
 
   ///@{
   /**
-   * References nearer to each other than this, seen from the scene in degrees, have the same free
-   * space: only the better is kept. 0 makes every image that can be one a reference. Default 5.
+   * Minimum angle between two references, seen from the scene, in degrees; of closer ones, which have much the
+   * same free space, only the better is kept. 0 makes every possible image a reference. Default 5.
    */
   vtkSetMacro(Separation, double);
   vtkGetMacro(Separation, double);
@@ -114,8 +114,8 @@ public:
 
   ///@{
   /**
-   * In sets of more than two dozen images one is not needed as a reference when so many others, none
-   * farther than 20 degrees from it, see most of what it sees. 0: no limit. Default 3.
+   * In sets of more than 24 images: number of references within 20 degrees of an image that see most of what
+   * it sees and so make it unnecessary as a reference. 0: no limit. Default 3.
    */
   vtkSetMacro(Coverage, int);
   vtkGetMacro(Coverage, int);
@@ -128,7 +128,7 @@ public:
 
   ///@{
   /**
-   * What Propose() chose.
+   * The clusters that Propose() chose.
    */
   int GetNumberOfClusters();
   std::string GetReference(int cluster);
@@ -141,7 +141,7 @@ public:
   std::string GetText();
 
   /**
-   * In one line, how many of the images are references, how many see what others see, and which have no
+   * One line: how many of the images are references, how many are covered by references, and which have no
    * neighbours.
    */
   std::string GetSummary();

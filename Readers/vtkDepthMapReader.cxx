@@ -36,7 +36,7 @@ freespace::DepthMap MapOfImageData(vtkImageData* image, const std::string& name)
     !image->GetPointData()->GetScalars())
   {
     throw freespace::Error(
-      "The depth map of " + name + " is not a picture with one component for each pixel.");
+      "The depth map of " + name + " is not an image with one component for each pixel.");
   }
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
   freespace::DepthMap map;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkDepthMapReader
- * @brief make the pixels of depth maps and range images features
+ * @brief turn the pixels of depth maps and range images into features
  *
- * RGB-D cameras, laser scanners and the dense stereo of other programs give depths for pixels. Each map is of
- * an image whose camera FileName holds, and becomes a view: pixels are features, with the standard deviation
- * of their depth. Where depths are those of planes, within Tolerance deviations, the corners of blocks of up
- * to LargestBlock pixels stand for all in them.
+ * RGB-D cameras, laser scanners and the dense stereo of other programs give a depth per pixel. Each map belongs
+ * to an image whose camera is in FileName, and becomes a view: pixels become features, with the standard
+ * deviation of their depth. Where the depths lie on a plane, within Tolerance deviations, squares of up to
+ * LargestBlock pixels are reduced to their corners.
  *
  * Maps are files (COLMAP's dense .bin, .pfm, .png of 16 bits), named after their image: a.jpg.geometric.bin,
  * a.jpg.pfm or a.png are of a.jpg. Or they are vtkImageData of one component in memory, the bottom row
@@ -60,7 +60,7 @@ public:
   void AddDepthImage(const std::string& image, vtkImageData* depths);
 
   /**
-   * Takes all maps away.
+   * Removes all maps.
    */
   void RemoveAllDepths();
 

@@ -49,7 +49,7 @@ private:
   int Before = cv::getNumThreads();
 };
 
-// With so many images the time is short when every one makes a view; more see what is to be seen anyway.
+// Up to this number of images, a view of every image takes little time; with more, the references see enough.
 constexpr std::size_t FewImages = 15;
 
 bool IsSmall(const std::vector<freespace::Cluster>& clusters)
@@ -65,7 +65,7 @@ bool IsSmall(const std::vector<freespace::Cluster>& clusters)
   return images.size() <= FewImages;
 }
 
-// The files that a scene's features come from, beside its own.
+// The files that the features are computed from, beside the scene.json.
 std::vector<std::string> FilesOf(const freespace::Scene& scene)
 {
   std::set<std::string> files;
@@ -92,7 +92,7 @@ std::vector<std::string> FilesOf(const freespace::Scene& scene)
   return { files.begin(), files.end() };
 }
 
-// Changes when one of the files is written, appears or goes.
+// Changes when one of the files is written, created or removed.
 long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& others)
 {
   std::uint64_t time = 0;
@@ -107,7 +107,7 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
   return static_cast<long long>(time);
 }
 
-// The cameras of the scene's images, by its edges where that is wanted.
+// The cameras of the scene's images, refined by its edges if requested.
 std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene& checked,
   freespace::EdgeStore& edges, const freespace::MatcherOptions& matching, int mode,
   const freespace::Progress& progress)

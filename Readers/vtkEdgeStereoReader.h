@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkEdgeStereoReader
- * @brief features of calibrated photographs by trinocular edge stereo
+ * @brief features of calibrated images by trinocular edge stereo
  *
  * Reads a scene.json, finds the edges of its images with sub-pixel precision, matches them over
  * each cluster of images and gives the features that the cluster's reference image shows: section 3
@@ -9,12 +9,12 @@
  * where they close a gap of an edge that was seen in three); its depth is
  * from all of them together, its position in the reference image (ImagePoint) and its world
  * position lie on one ray. An edge nearly parallel to a baseline cannot be matched along it,
- * therefore clusters have best one horizontal and one vertical triplet. A silhouette is matched by
+ * therefore a cluster should have one horizontal and one vertical triplet. A silhouette is matched by
  * the colours of the object in front, whatever lies behind it. Where edges have no match and between them,
- * patches of the images are aligned, and those that agree become features, too (see Patches).
+ * small patches of the images are aligned, and those that agree become features, too (see Patches).
  *
- * The depths that are searched are those between MinimumDepth and MaximumDepth that the cameras of
- * the triplets see in common. Lens distortion is removed from the edges' positions.
+ * The search covers the depths between MinimumDepth and MaximumDepth that all cameras of the triplets
+ * see. Lens distortion is removed from the edges' positions.
  *
  * Instead of a scene.json, images in memory may be connected: a vtkMultiBlockDataSet (or
  * vtkPartitionedDataSetCollection) of vtkImageData as vtkPhotographReader generates it, each block named after its
@@ -41,16 +41,16 @@
  * | FieldData | ImageFile        | string           | the reference image, relative to the images    |
  *
  * With EveryImage on, every image of a cluster is the reference of a view of its own, over the same
- * images: a cross gives five views instead of one. That is beyond the paper, and takes up to three times
- * as long here and in the stages that follow. The others see a little round the things that hide the
- * rest from the middle, which leaves less matter between things that stand close together. These
+ * images: a cross gives five views instead of one. This goes beyond the paper, and takes up to three times
+ * as long here and in the following stages. The other images see parts of the scene that are occluded in
+ * the reference image, so that less matter remains between objects that stand close together. These
  * views come after those of the references, named after cluster and image; one without three features
  * is left out.
  *
  * Clusters run in parallel through vtkSMPTools, with the same result for any number of threads;
- * only the images of the clusters in work are in memory.
+ * only the images of the clusters being processed are in memory.
  *
- * Images that contradict the others (see CheckImages) and clusters with hardly a feature for their edges
+ * Images that contradict the others (see CheckImages) and clusters with very few features for their edges
  * are left out; a warning names them. A file that is missing, broken or does not fit, a triplet without
  * overlap and a scene of which nothing is left is an error that names the file or cluster; the output is
  * then empty. After an abort it is empty, too. The reader runs again when the scene's file has changed on disk, but
@@ -123,7 +123,7 @@ public:
 
   ///@{
   /**
-   * Sigma of the Gaussian under which edges are found, pixels. Default 1.
+   * Sigma of the Gaussian of the edge detector, in pixels. Default 1.
    */
   vtkSetMacro(Smoothing, double);
   vtkGetMacro(Smoothing, double);
@@ -131,7 +131,7 @@ public:
 
   ///@{
   /**
-   * The least slope of an edge, grey levels per pixel. Default 1.8.
+   * Minimum gradient of an edge pixel, in grey levels per pixel. Default 1.8.
    */
   vtkSetMacro(LowContrast, double);
   vtkGetMacro(LowContrast, double);
@@ -139,7 +139,7 @@ public:
 
   ///@{
   /**
-   * The slope that a chain of edge tokens must reach somewhere, grey levels per pixel. Default 4.5.
+   * Gradient that at least one token of a chain must reach (hysteresis), in grey levels per pixel. Default 4.5.
    */
   vtkSetMacro(HighContrast, double);
   vtkGetMacro(HighContrast, double);
@@ -147,8 +147,8 @@ public:
 
   ///@{
   /**
-   * How far an edge may lie, across it, from where two other images predict it, pixels. Default
-   * 0.7; pictures whose edges fit better than that are held to several times their median error.
+   * Maximum distance of an edge, across it, from where two other images predict it, in pixels. Default
+   * 0.7; images whose edges fit better than that are held to several times their median error.
    */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
@@ -156,7 +156,7 @@ public:
 
   ///@{
   /**
-   * The least angle between an edge and the epipolar line for a match, degrees. Default 6.
+   * Minimum angle between an edge and the epipolar line for a match, in degrees. Default 6.
    */
   vtkSetMacro(MinimumAngle, double);
   vtkGetMacro(MinimumAngle, double);
@@ -164,7 +164,7 @@ public:
 
   ///@{
   /**
-   * The greatest mean difference of the colours on an edge's better side, grey levels of
+   * Maximum mean difference of the colours on the more similar side of an edge, in grey levels of
    * a logarithmic scale. Default 45.
    */
   vtkSetMacro(ColorTolerance, double);
@@ -173,7 +173,7 @@ public:
 
   ///@{
   /**
-   * How many tokens of a chain must match without a break. Default 4.
+   * Minimum number of consecutive tokens of a chain that match. Default 4.
    */
   vtkSetMacro(MinimumRun, int);
   vtkGetMacro(MinimumRun, int);
@@ -182,7 +182,7 @@ public:
   ///@{
   /**
    * Whether small patches of the images, aligned to each other, become features where the edges leave
-   * gaps: at edges without a match and between them. The paper has edges only. Default on.
+   * gaps: at edges without a match and between them. The paper uses edges only. Default on.
    */
   vtkSetMacro(Patches, vtkTypeBool);
   vtkGetMacro(Patches, vtkTypeBool);
@@ -192,8 +192,8 @@ public:
   ///@{
   /**
    * Whether every image of a cluster makes a view, not the reference alone: never (off), always (on), or
-   * in small scenes, whose clusters have no more than 15 images in all. There the images that are no
-   * references see most that is new, and the time is short. Default small scenes.
+   * in small scenes, whose clusters have no more than 15 images in all. There the other images add most, and
+   * the time is short. Default small scenes.
    */
   enum EveryImageMode
   {
@@ -226,8 +226,8 @@ public:
   ///@{
   /**
    * Whether images that do not fit the others are left out, with a warning that names them: those whose
-   * edges contradict the edges of the images about them, because the picture is another or turned or its
-   * camera is wrong, and those whose observations in the camera model are not the projections of their
+   * edges contradict the edges of the images about them, because the file is another image, the image is
+   * rotated, or its camera is wrong, and those whose observations in the camera model are not the projections of their
    * points. Default true.
    */
   vtkSetMacro(CheckImages, vtkTypeBool);
@@ -251,14 +251,14 @@ public:
   std::string GetClusterSummary() { return this->ClusterSummary; }
 
   /**
-   * After Update(): in one line, how many photographs have another size than the cameras of the model, which
-   * are scaled then. Empty when none has.
+   * After Update(): in one line, how many images differ in size from the cameras of the model, which
+   * are then scaled. Empty when none has.
    */
   std::string GetImageSummary() { return this->ImageSummary; }
 
   /**
-   * Later than the reader's own time when one of the files that it has read has changed since: the
-   * scene's, the camera model's or a photograph.
+   * Later than the reader's own modification time when one of the files that it has read has changed since:
+   * the scene.json, the camera model or an image.
    */
   vtkMTimeType GetMTime() override;
 

@@ -45,7 +45,7 @@ int vtkSparseModelReader::RequestData(
     {
       throw freespace::Error("The camera model " + this->FileName +
         " has no points to be features: make a scene of it, whose features come from its "
-        "photographs (freespace clusters MODEL --images IMAGES -o scene.json).");
+        "images (freespace clusters MODEL --images IMAGES -o scene.json).");
     }
     progress(0.5);
     if (this->CheckImages)

@@ -3,8 +3,8 @@
  * @class vtkSparseModelReader
  * @brief read a structure-from-motion model as views with their features
  *
- * A structure-from-motion model knows cameras and points, and which image sees which point. Each
- * image with its points is a view for this method, without a photograph. Reads COLMAP's models (a
+ * A structure-from-motion model has cameras and points, and records which image sees which point. Each
+ * image with its points is a view; the image file is not needed. Reads COLMAP's models (a
  * folder; binary files are preferred to text), Bundler's bundle.out, VisualSFM's .nvm, OpenMVG's
  * sfm_data.json and AliceVision's .sfm. Files that have cameras only give no features: nerfstudio's
  * and instant-ngp's transforms.json, Metashape's XML and Middlebury's _par.txt; vtkCameraReader and
@@ -13,7 +13,7 @@
  * A point is a feature of the images that see it when its track is long enough, its rays meet at
  * a sufficient angle and its reprojection error is small. A point that is not in front of an
  * image's camera, such as one that coincides with its centre, is no feature of that image. Images
- * with fewer than MinimumFeatures features inside of the picture are left out.
+ * with fewer than MinimumFeatures features inside their frame are left out.
  *
  * Output: a vtkMultiBlockDataSet with one vtkPolyData for each image, named after its file, with
  * the arrays of a view (see the README). ImagePoint is where a camera without the lens's distortion
@@ -26,7 +26,7 @@
  * |-----------|---------------------|----------------|------------------------------------------|
  * | PointData | PointId             | 64 bit integer | number of the point in the model         |
  * | PointData | Observation         | int            | its place among those of the image       |
- * | PointData | ObservedPixel       | double x2      | where the picture shows it, distorted    |
+ * | PointData | ObservedPixel       | double x2      | where the image shows it, distorted    |
  * | PointData | RGB                 | uchar x3       | colour                                   |
  * | PointData | ReprojectionError   | double         | as the model says, pixels; -1: unknown   |
  * | FieldData | ImageId, CameraId   | 64 bit integer | numbers in the model                     |
@@ -72,7 +72,7 @@ public:
 
   ///@{
   /**
-   * So many images must see a point. Default 2.
+   * Minimum number of images that see a point. Default 2.
    */
   vtkSetMacro(MinimumTrackLength, int);
   vtkGetMacro(MinimumTrackLength, int);
@@ -80,7 +80,7 @@ public:
 
   ///@{
   /**
-   * An observation may be so far from the projection of its point, in pixels. Default 4.
+   * Maximum distance of an observation from the projection of its point, in pixels. Default 4.
    */
   vtkSetMacro(MaximumError, double);
   vtkGetMacro(MaximumError, double);
@@ -88,8 +88,9 @@ public:
 
   ///@{
   /**
-   * The greatest angle between two rays to a point must be so large, in degrees, or as large as that
-   * of half of the points: where all baselines are short the better half is kept. Default 5.
+   * Minimum triangulation angle of a point, the largest between two of its rays, in degrees. If the median
+   * over all points is smaller, the median is used: where all baselines are short, half of the points are
+   * kept. Default 5.
    */
   vtkSetMacro(MinimumAngle, double);
   vtkGetMacro(MinimumAngle, double);
@@ -97,14 +98,14 @@ public:
 
   ///@{
   /**
-   * Images with fewer features inside of the picture are left out. Default 10.
+   * Images with fewer features inside their frame are left out. Default 10.
    */
   vtkSetMacro(MinimumFeatures, int);
   vtkGetMacro(MinimumFeatures, int);
   ///@}
 
   /**
-   * Whether a path looks like that of a model: a folder with COLMAP's files or a bundle.out, or a
+   * Whether a path looks like a model: a folder with COLMAP's files or a bundle.out, or a
    * file that ends in .out or .nvm.
    */
   static bool CanReadFile(VTK_FILEPATH const std::string& path);

@@ -26,7 +26,7 @@ public:
 
   ///@{
   /**
-   * The file to read; its ending (.ply, .stl, .obj or .vtp) tells the format.
+   * The file to read; its extension (.ply, .stl, .obj or .vtp) determines the format.
    */
   vtkSetFilePathStringMacro(FileName);
   vtkGetFilePathStringMacro(FileName);

@@ -57,7 +57,7 @@ void AddLens(const SparseCamera& camera, vtkFieldData* data)
     ->SetTypedTuple(0, camera.parameters.data());
 }
 
-// The observations of the image that are no features.
+// The observations of the image that are not features.
 void AddKeypoints(const SparseImage& image, const SparseView& view, vtkFieldData* data)
 {
   std::vector<bool> isFeature(image.observations.size(), false);
@@ -124,7 +124,7 @@ public:
       : nullptr;
   }
 
-  // A file gives the integers back in an array of another class.
+  // Integers read from a file may be in an array of another class.
   vtkSmartPointer<vtkTypeInt64Array> PointIds() const
   {
     vtkSmartPointer<vtkTypeInt64Array> ids;
@@ -136,7 +136,7 @@ public:
     return ids;
   }
 
-  // All values of an array in the field data, in whatever tuples they come back from a file.
+  // All values of an array in the field data; a file may change the number of components.
   std::vector<double> OfField(const char* name) const
   {
     vtkDataArray* array = this->Block->GetFieldData()->GetArray(name);
@@ -283,7 +283,7 @@ private:
     }
   }
 
-  // The features at their old places among the observations, the keypoints between them.
+  // The features at their original positions among the observations, the keypoints between them.
   void AddObservations(std::size_t i)
   {
     const View& view = this->Views[i];
@@ -363,7 +363,7 @@ private:
     }
   }
 
-  // One that no block uses.
+  // An id that no block uses.
   std::uint64_t FreshId()
   {
     if (this->NextId == 0)

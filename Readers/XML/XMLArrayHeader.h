@@ -19,7 +19,7 @@ struct ArrayHeader
   bool isCompressed = false;
   bool isLong = false; ///< 8 bytes a number in place of 4
 
-  /// Whether what it says fits into so many bytes of text.
+  /// Whether the described values fit into this number of bytes of text.
   bool Fits(std::size_t length) const;
 };
 

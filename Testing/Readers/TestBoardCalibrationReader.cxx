@@ -114,7 +114,7 @@ TEST(BoardCalibrationReader, BadInput)
   vtkNew<vtkBoardCalibration> calibration;
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
-  EXPECT_TRUE(errors.Has("There are no pictures to calibrate from."));
+  EXPECT_TRUE(errors.Has("There are no images to calibrate from."));
   calibration->AddFileName("/no/such/picture.png");
   calibration->SetBoard("chessboard:9x6:0.025");
   calibration->Update();

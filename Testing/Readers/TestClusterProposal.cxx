@@ -47,7 +47,7 @@ TEST(ClusterProposal, OfAModelWithoutAScene)
   EXPECT_EQ(proposal->GetNumberOfClusters(), 3);
   TemporaryFolder folder;
   EXPECT_EQ(proposal->WriteScene(folder.Path("scene.json")), 0);
-  EXPECT_TRUE(errors.Has("the folder of the photographs was not given"));
+  EXPECT_TRUE(errors.Has("the folder of the images was not given"));
   proposal->SetImages(data + "/images");
   ASSERT_EQ(proposal->Propose(), 1);
   ASSERT_EQ(proposal->WriteScene(folder.Path("scene.json")), 1);

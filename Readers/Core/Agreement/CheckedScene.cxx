@@ -38,7 +38,7 @@ void LeaveOut(const std::set<std::string>& names, CheckedScene& checked)
   }
 }
 
-// Tells which photographs have no mask where the scene has masks. Throws Error when none has.
+// Reports images without a mask where the scene has masks. Throws Error if none has one.
 void CheckMasks(const Scene& scene, const SparseModel& model, std::vector<std::string>& warnings)
 {
   std::vector<std::string> missing;
@@ -60,11 +60,11 @@ void CheckMasks(const Scene& scene, const SparseModel& model, std::vector<std::s
   }
   if (missing.size() == photographs)
   {
-    throw Error("No photograph of the scene " + scene.file + " has a mask: there is no " +
+    throw Error("No image of the scene " + scene.file + " has a mask: there is no " +
       scene.MaskPath(missing.front()) + ".");
   }
   warnings.push_back(std::to_string(missing.size()) + " of " + std::to_string(photographs) +
-    " photographs have no mask and are used whole: " + Joined(missing));
+    " images have no mask and are used whole: " + Joined(missing));
 }
 
 }
@@ -92,7 +92,8 @@ CheckedScene CheckScene(const Scene& scene, SparseModel model, EdgeStore& edges,
   {
     checked.warnings.push_back(std::to_string(wrong.size()) + " of " + std::to_string(all) +
       (wrong.size() == 1 ? " images is" : " images are") +
-      " left out: their edges contradict those of the others, the picture is another or turned, or "
+      " left out: their edges contradict those of the others, the file is another image, it is "
+      "rotated, or "
       "the camera is wrong: " +
       Joined(wrong));
     LeaveOut({ wrong.begin(), wrong.end() }, checked);

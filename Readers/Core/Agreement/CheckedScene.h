@@ -14,7 +14,7 @@ namespace freespace
 /// A scene without the images that do not fit the others.
 struct CheckedScene
 {
-  Scene given;          ///< with the clusters that its file names, if it does, of right images
+  Scene given;          ///< with the clusters that its file names, if any, of consistent images
   Scene scene;          ///< the same, or with proposed clusters
   SparseModel model;    ///< of the right images
   std::string choice;   ///< what DescribeChoice says about proposed clusters
@@ -22,10 +22,10 @@ struct CheckedScene
   std::vector<std::string> warnings; ///< a sentence each, which names the images that are left out
 };
 
-/// Looks for wrong images where that is wanted (`check`): those whose observations are not the projections
+/// Looks for wrong images if requested (`check`): those whose observations are not the projections
 /// of their points (FindMisprojectedImages), and those whose edges contradict the others'
-/// (FindWrongImages). Proposes clusters of the right images where the scene names none; those that it
-/// names are made of the right images (WithoutImages).
+/// (FindWrongImages). Proposes clusters of the remaining images where the scene names none; wrong images
+/// are removed from those that it names (WithoutImages).
 ///
 /// `model` is the scene's (ReadSceneModel, MemoryScene). Throws Error when no cluster is left or can be proposed, and what the steps throw.
 CheckedScene CheckScene(const Scene& scene, SparseModel model, EdgeStore& edges,

@@ -8,7 +8,7 @@
 namespace freespace
 {
 
-/// How the edges of one image fit those of the images about it, all by their given cameras.
+/// How well the edges of one image agree with those of its neighbours, given their cameras.
 struct ImageAgreement
 {
   int image = 0;        ///< the reference of the match, an index
@@ -18,7 +18,7 @@ struct ImageAgreement
   std::vector<std::pair<int, double>> others;
 };
 
-/// What became of the images, by their indices in ascending order.
+/// The classification of the images, by their indices in ascending order.
 struct Agreement
 {
   std::vector<int> confirmed;    ///< that others agree with
@@ -26,8 +26,8 @@ struct Agreement
   std::vector<int> unknown;      ///< that could not be compared
 };
 
-/// Finds the images that contradict the others: photographs that are upside down or under another's name,
-/// and cameras that stand elsewhere.
+/// Finds the images that contradict the others: those that are upside down or under another's name,
+/// and cameras with a wrong pose.
 ///
 /// A right image whose neighbours are right has many confirmed tokens, and is itself among those that
 /// confirm the tokens of its neighbours. Two images agree when each shows a good part of the tokens that

@@ -14,7 +14,7 @@ namespace freespace
 namespace
 {
 
-constexpr std::size_t Few = 10;     // observations that tell nothing
+constexpr std::size_t Few = 10;     // too few observations to judge
 constexpr double TimesTheUsual = 5; // and farther: no longer the error of a sloppy calibration
 
 // Of the observations of points; a point behind the camera is as far off as can be. -1: too few.

@@ -20,14 +20,14 @@ struct MisprojectedImage
 };
 
 /// The images of a model of which more than half of the observations lie more than `least` pixels from the
-/// projections of their points, and several times as far as in the other images: their cameras are not
-/// those that the points were made with. In the model's order; images with fewer than ten observations
+/// projections of their points, and several times as far as in the other images: their cameras do not
+/// belong to the points. In the model's order; images with fewer than ten observations
 /// tell nothing.
 std::vector<MisprojectedImage> FindMisprojectedImages(const SparseModel& model, double least = 4);
 
 std::set<std::string> NamesOf(const std::vector<MisprojectedImage>& images);
 
-/// In a sentence, of so many images in all: "2 of 11 images are left out: ... a.jpg (85 pixels), b.jpg (12
+/// A sentence, given the number of all images: "2 of 11 images are left out: ... a.jpg (85 pixels), b.jpg (12
 /// pixels)".
 std::string DescribeMisprojected(const std::vector<MisprojectedImage>& images, std::size_t all);
 

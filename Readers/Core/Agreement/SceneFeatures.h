@@ -13,13 +13,13 @@
 namespace freespace
 {
 
-/// Which clusters have so few features for their edges that something is wrong with them: fewer than three,
-/// or, where several others tell what is usual, less than a fifteenth of the median share of edge tokens
+/// The clusters with so few features for their edges that something must be wrong: fewer than three,
+/// or, where several others give a typical share, less than a fifteenth of the median share of edge tokens
 /// that become features. Matches by chance alone give a fiftieth. Per view, as given.
 std::vector<char> FindPoorViews(const std::vector<EdgeView>& views);
 
 /// FindFeatures for all clusters of a scene; poor views are left out. Each of these that belongs to the
-/// first `needed` clusters is named in a warning. Other views of fewer than three features go silently.
+/// first `needed` clusters is named in a warning. Other views of fewer than three features are dropped without a warning.
 ///
 /// As many clusters at a time as there are threads: this bounds the memory. Throws Error as FindFeatures
 /// does for the first cluster of the needed that fails, TooFewFeatures only when no view is left.

@@ -28,7 +28,7 @@ struct WrongImageOptions
 };
 
 /// The images of a scene that contradict the others (FindAgreement), by name, in the model's
-/// order: photographs that are upside down or under another's name, and wrong cameras. The edges of each
+/// order: images that are upside down or under another's name, and wrong cameras. The edges of each
 /// image are matched with those of its neighbours. The same result for any number of threads.
 ///
 /// tracks: those of the clusters that were matched, `tracksPerImage` of each, for RefineCameras, which matches

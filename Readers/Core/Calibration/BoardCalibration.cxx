@@ -26,7 +26,7 @@ void BoardCalibrationOptions::Check() const
   if (this->minimumCorners < 4 || !(this->outlierThreshold > 2))
   {
     throw Error(
-      "A picture needs at least 4 corners, and the threshold of outliers must be above 2.");
+      "An image needs at least 4 corners, and the threshold of outliers must be above 2.");
   }
 }
 
@@ -47,8 +47,8 @@ void CheckTellsItsSides(const Board& board)
   }
 }
 
-// Detects the board in all pictures. Of a ChArUco board's two layouts the one counts that more markers of
-// all pictures fit.
+// Detects the board in all images. Of a ChArUco board's two layouts the one counts that more markers of
+// all images fit.
 void Detect(const std::vector<std::string>& files, const Board& board,
   const ParallelFor& parallelFor, BoardCalibration& calibration)
 {
@@ -80,7 +80,7 @@ void Detect(const std::vector<std::string>& files, const Board& board,
   }
 }
 
-// The pictures of one size, by the folders that they are in.
+// The images of one size, by the folders that they are in.
 std::vector<Pictures> ByFolder(const Pictures& pictures)
 {
   std::map<std::string, Pictures> folders;
@@ -96,7 +96,7 @@ std::vector<Pictures> ByFolder(const Pictures& pictures)
   return groups;
 }
 
-// Whether pictures of several folders are better explained by a camera for each folder than by one, by the
+// Whether images of several folders are better explained by a camera for each folder than by one, by the
 // Bayesian information criterion over the corners that fit the folders' own cameras.
 bool HaveOwnCameras(const std::vector<Pictures>& folders, const BoardCalibrationOptions& options,
   const ParallelFor& parallelFor)
@@ -132,7 +132,7 @@ bool HaveOwnCameras(const std::vector<Pictures>& folders, const BoardCalibration
   return apart.Criterion() < together.Criterion();
 }
 
-// All pictures of one size are of one camera, unless those of different folders are clearly of several.
+// All images of one size are of one camera, unless those of different folders are clearly of several.
 std::vector<Pictures> CamerasOf(
   const Pictures& pictures, const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
 {
@@ -173,7 +173,7 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
   if (sizes.empty())
   {
     throw Error("Cannot calibrate: the board was found in none of " + std::to_string(files.size()) +
-      " pictures.");
+      " images.");
   }
   std::vector<Pictures> cameras;
   for (const auto& size : sizes)

@@ -103,8 +103,8 @@ double FreeReach(const Board& board)
 
 // Finds one corner by the four edges that meet in it. cv::cornerSubPix does so in an upright window,
 // which must not reach the markers; here the edges are followed for nearly half a square each, and only
-// gradients count that are across their edge and of the sign that the squares demand. So neither markers
-// nor shadows nor what hides a part disturb.
+// gradients count that are across their edge and of the sign that the squares demand. So markers, shadows
+// and occlusions do not disturb it.
 class CornerFinder
 {
 public:
@@ -122,7 +122,7 @@ public:
     this->PixelFromSquare.col(1) = 2 * (pixels[3] - pixels[4]);
   }
 
-  // False when the corner is hidden, unclear or not where it should be.
+  // False if the corner is hidden, ambiguous or too far from its expected position.
   bool Find(Eigen::Vector2d& found) const
   {
     const double sides =

@@ -23,7 +23,7 @@ cv::Mat ReadGrayImage(const std::string& file)
   cv::Mat gray = IsFile(file) ? DecodeImage(file, false) : cv::Mat();
   if (gray.empty())
   {
-    throw Error("Cannot read the picture " + file + ": it is missing or not a picture.");
+    throw Error("Cannot read the image " + file + ": it is missing or damaged.");
   }
   return gray;
 }
@@ -49,7 +49,7 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
     const cv::Mat pixels = DecodeImage(picture.file, true);
     if (pixels.empty())
     {
-      throw Error("Cannot read the picture " + picture.file + " again.");
+      throw Error("Cannot read the image " + picture.file + " again.");
     }
     AtomicOutput output(target.string());
     std::vector<std::uint8_t> jpeg;

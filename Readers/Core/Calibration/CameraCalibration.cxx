@@ -101,12 +101,12 @@ CameraCalibration::Fit CameraCalibration::Calibrate(int coefficients) const
   }
   catch (const cv::Exception& error)
   {
-    throw Error("Cannot calibrate: the pictures of the board are degenerate (" + error.err + ").");
+    throw Error("Cannot calibrate: the images of the board are degenerate (" + error.err + ").");
   }
   fit.matrix = cv::Matx33d(matrix);
   if (!cv::checkRange(matrix) || !cv::checkRange(distortion) || !(fit.matrix(0, 0) > 0))
   {
-    throw Error("Cannot calibrate: the pictures show the board from too few directions.");
+    throw Error("Cannot calibrate: the images show the board from too few directions.");
   }
   fit.distortion.assign(distortion.ptr<double>(), distortion.ptr<double>() + 5);
   fit.parameters = (this->Options.squarePixels ? 3 : 4) + coefficients;
@@ -204,7 +204,7 @@ void CameraCalibration::DropPictures()
     std::remove_if(this->Pictures.begin(), this->Pictures.end(), isPoor), this->Pictures.end());
   if (this->Pictures.size() < 3)
   {
-    throw Error("Cannot calibrate: the board was found in fewer than three pictures of " +
+    throw Error("Cannot calibrate: the board was found in fewer than three images of " +
       std::to_string(this->Size.width) + " x " + std::to_string(this->Size.height) + " pixels.");
   }
 }

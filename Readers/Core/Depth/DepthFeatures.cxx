@@ -59,7 +59,7 @@ public:
   std::vector<Eigen::Vector2d> Pixels;
 };
 
-// Chooses pixels by dividing blocks until the disparity between their corners is that of the map.
+// Selects pixels by dividing squares until the disparity interpolated from their corners is that of the map.
 class PixelChoice
 {
 public:
@@ -114,7 +114,7 @@ private:
     }
   }
 
-  // Whether the map is, within the tolerance, what the corners say with either diagonal.
+  // Whether the map agrees, within the tolerance, with the corners interpolated over either diagonal.
   bool IsFlat(int left, int top, int right, int bottom) const
   {
     const double z[] = { this->Depths.Depth(left, top), this->Depths.Depth(right, top),

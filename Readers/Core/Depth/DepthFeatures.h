@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// How the pixels of a depth map become features.
+/// Options of the conversion of depth maps to features.
 struct DepthOptions
 {
   double scale = 1;     ///< unit of the scene for each unit of the map; > 0
@@ -19,8 +19,8 @@ struct DepthOptions
   /// Standard deviation of a depth z: deviation + relativeDeviation z, unit of the scene; >= 0, not both 0.
   double deviation = 0;
   double relativeDeviation = 0.005;
-  /// A block of pixels is represented by its corners where the depths between them are off by no more than so
-  /// many deviations (with corners of smaller blocks on its sides twice as many); >= 0.
+  /// A square of pixels is represented by its corners if the depths between them deviate by no more than this
+  /// number of deviations (with corners of smaller blocks on its sides twice as many); >= 0.
   double tolerance = 1;
   int largestBlock = 16; ///< side of the largest block, pixels; 1 makes each pixel a feature
 
@@ -36,8 +36,8 @@ struct DepthOptions
 /// The features of an image's depth map, row by row. The map has the image's shape, and may be larger or
 /// smaller. It is of the image as it is, with the lens's distortion; features stand where the pinhole camera
 /// sees them. They have the deviations of their disparities.
-/// Pixels without a depth are no features, and blocks with such pixels are divided down to single
-/// ones, so that the rims of holes stay.
+/// Pixels without a depth are not features, and squares with such pixels are divided down to single pixels,
+/// so that the rims of holes are kept.
 ///
 /// Throws Error where the map has another shape.
 View FeaturesOfDepthMap(

@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// The depths of an image's pixels, the top row first. What is not positive and finite is not known.
+/// The depths of an image's pixels, the top row first. Values that are not positive and finite are unknown.
 struct DepthMap
 {
   int width = 0;
@@ -24,7 +24,7 @@ struct DepthMap
   }
 };
 
-/// Reads a depth map by the file's ending: COLMAP's dense .bin, a .pfm of one channel, or a .png of 16 bits
+/// Reads a depth map by the file's extension: COLMAP's dense .bin, a .pfm of one channel, or a .png of 16 bits
 /// and one channel. Throws Error naming the file and the fault.
 DepthMap ReadDepthMap(const std::string& file);
 

@@ -39,7 +39,7 @@ public:
     throw Error("Cannot read the depth map " + this->File + ": " + fault + ".");
   }
 
-  // What stands before the next of these characters, which is skipped.
+  // The text before the next of these characters, which is skipped.
   std::string_view Until(const char* ends)
   {
     constexpr std::size_t most = 64;

@@ -5,9 +5,9 @@
 namespace freespace
 {
 
-/// The work of edge finding that is done for every token, a chain at a time.
+/// The steps of edge detection that are done for every token, one chain at a time.
 
-/// Adds to sum[k] what the weights make of the 2 * radius + 1 values around values[k].
+/// Adds to sum[k] the weighted sum of the 2 * radius + 1 values around values[k].
 void AddWeighted(const double* values, int count, const double* weights, int radius, double* sum);
 
 /// The unit direction of (x, y)[k], or that across the gradient (gx, gy)[k] when it has the gradient

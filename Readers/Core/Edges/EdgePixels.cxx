@@ -163,7 +163,7 @@ struct PeakRow
   }
 };
 
-// A point's neighbours are looked for so far from its pixel.
+// Radius, in pixels, of the search for the neighbours of a point.
 constexpr int LinkRadius = 2;
 
 // The points' pixels of the last rows, and their numbers. A frame around the image has no points,
@@ -262,7 +262,7 @@ float LinkDistance(const EdgePoint& from, const EdgePoint& to)
 {
   const float dx = to.x - from.x, dy = to.y - from.y;
   const float along = dx * from.gy - dy * from.gx, alongTo = dx * to.gy - dy * to.gx;
-  // No branches: which way it goes cannot be foretold.
+  // Without branches, which could not be predicted.
   const bool linked = (from.gx * to.gx + from.gy * to.gy > 0) & (along * alongTo > 0);
   const float squared = dx * dx + dy * dy;
   const float distance = along > 0 ? squared : -squared;
@@ -324,7 +324,7 @@ void Link(LinkedPoints& edges, int from, int to)
   previous = from;
 }
 
-// Links a point to the best one ahead and behind; a point that two want goes to the nearer.
+// Links a point to the best one ahead and behind; of two candidates for one link the nearer wins.
 void LinkToNeighbors(LinkedPoints& edges, const Neighbors& best, int i)
 {
   const LargeVector<EdgePoint>& points = edges.points;
@@ -346,7 +346,7 @@ void LinkToNeighbors(LinkedPoints& edges, const Neighbors& best, int i)
   }
 }
 
-// The rows of an image around the one that is looked at.
+// The rows of an image around the current one.
 class EdgeFinder
 {
 public:

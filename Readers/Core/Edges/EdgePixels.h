@@ -14,7 +14,7 @@ class Mat;
 namespace freespace
 {
 
-/// A pixel on an edge, whose place is known to a fraction of a pixel.
+/// A pixel on an edge, with sub-pixel position.
 struct EdgePoint
 {
   float x, y;     ///< pixels, the centre of the first one at (0, 0)
@@ -22,7 +22,7 @@ struct EdgePoint
   float contrast; ///< its length, in the noise of middle grey
 };
 
-/// Points and how they are linked. Who goes along an edge finds the numbers close together.
+/// Points and their links. Who goes along an edge finds the numbers close together.
 struct LinkedPoints
 {
   LargeVector<EdgePoint> points;

@@ -22,7 +22,7 @@ constexpr std::array<float, 9> ColorPlaces{ 1.5f, 2.5f, 3.5f, 5.0f, -1.5f, -2.5f
   0.0f };
 
 // Weights that give the value of the parabola fitted to 2 * radius + 1 equally spaced values at the
-// middle one (Savitzky and Golay). Three values make no parabola worth the name: their mean.
+// middle one (Savitzky and Golay). Of three values, too few for a parabola, the mean.
 std::vector<double> ParabolaWeights(int radius)
 {
   if (radius <= 1)
@@ -185,7 +185,7 @@ private:
     AddWeighted(y, last - first, weights.slope.data(), radius, &this->AlongY[first]);
   }
 
-  // Where too few points stand around a token, its direction is that of the next few.
+  // If a token has too few points around it, its direction is that of the next tokens.
   void LookAlong(int k)
   {
     const int first = std::clamp(k - 2, 0, std::max(0, this->Size - 5));

@@ -15,9 +15,8 @@
 namespace freespace
 {
 
-/// Asks the system for large pages where an array takes several of them: to touch a megabyte of new
-/// memory for the first time in small pages takes longer than to fill it. What a vector grows by is
-/// not set to zero.
+/// Allocates large pages for large arrays: the page faults of a megabyte of small pages take longer than
+/// filling it. New elements of a vector are not initialized.
 template <typename T>
 struct LargePages
 {

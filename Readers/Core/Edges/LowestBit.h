@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// The number of zeros below the lowest one of a value that is not zero.
+/// The number of trailing zero bits of a value other than zero.
 inline int LowestBit(std::uint64_t bits)
 {
 #if defined(__GNUC__)

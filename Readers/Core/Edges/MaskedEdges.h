@@ -9,13 +9,13 @@
 namespace freespace
 {
 
-/// The edges without the tokens for which `dropped` is not zero: chains are cut there, and what is left of
-/// fewer tokens than the least length goes, too.
+/// The edges without the tokens for which `dropped` is not zero: chains are cut there, and remaining pieces
+/// shorter than the minimum length are removed.
 EdgeChains EdgesWithout(
   const EdgeChains& edges, const std::vector<char>& dropped, int minimumLength);
 
-/// The edges outside of the black parts of a mask. Chains end where these begin; what is left of a chain
-/// counts when it has as many tokens as a chain must have. The edges were found in the whole image: the
+/// The edges outside of the black parts of a mask. Chains end at its boundary; the rest of a chain is
+/// kept if it has the minimum number of tokens. The edges were found in the whole image: the
 /// boundary of a mask makes none. A token on the boundary keeps the colours of both sides, so that a
 /// silhouette stays an edge.
 EdgeChains EdgesOutside(const EdgeChains& edges, const cv::Mat& mask, int minimumLength);

@@ -12,14 +12,14 @@ namespace freespace
 namespace
 {
 
-// Beyond its ends, a row goes on as it ends.
+// Beyond its ends, the last values of a row are repeated.
 FREESPACE_INLINE void Continue(float* row, int width, int radius)
 {
   std::fill(row - radius, row, row[0]);
   std::fill(row + width, row + width + radius, row[width - 1]);
 }
 
-// A radius that the compiler knows: it keeps the sums in registers.
+// A radius known at compile time keeps the sums in registers.
 template <int radius>
 FREESPACE_INLINE void SmoothBy(const std::uint8_t* const* rows, const float* weights, int width,
   float* __restrict middle, float* __restrict smooth)
@@ -112,7 +112,7 @@ void MarkPeaks(
   for (int x = 1; x < width - 1; ++x)
   {
     const float slope = here[x];
-    // No branches, so that many are compared at once.
+    // Without branches, so that the loop is vectorized.
     const bool alongX = std::abs(gx[x]) >= std::abs(gy[x]);
     const float left = here[x - 1], right = here[x + 1], up = above[x], down = below[x];
     const float before = alongX ? left : up;

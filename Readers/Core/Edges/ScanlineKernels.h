@@ -8,11 +8,11 @@
 namespace freespace
 {
 
-/// The work of edge finding that is done for every pixel, a row at a time.
+/// The steps of edge detection that are done for every pixel, one row at a time.
 
 /// Smooths a row of grey levels by a symmetric kernel. `rows` are those from `radius` above to
-/// `radius` below, `weights` the kernel from its middle outwards. Beyond the row's ends, the image
-/// goes on as it ends. `work` has room for width + 2 * radius values.
+/// `radius` below, `weights` the kernel from its middle outwards. Beyond the row's ends, the last
+/// pixels are repeated. `work` has room for width + 2 * radius values.
 void SmoothRow(const std::uint8_t* const* rows, const float* weights, int radius, int width,
   float* work, float* smooth);
 

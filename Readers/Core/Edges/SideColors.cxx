@@ -21,7 +21,7 @@ std::array<double, 256> LogColors()
   return colors;
 }
 
-// How often each value occurs in each channel.
+// Histograms of the channels.
 using Histograms = std::array<std::array<int, 256>, 3>;
 
 Histograms ColorHistograms(const EdgeChains& edges)

@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// How the colours beside the edges of an image are spread, in logarithms (see SideColors).
+/// Mean and spread of the colours beside the edges of an image, in logarithms (see SideColors).
 struct ColorStatistics
 {
   explicit ColorStatistics(const EdgeChains& edges);
@@ -22,12 +22,12 @@ struct ColorStatistics
   std::array<Channel, 3> Channels;
 };
 
-/// What the edges of one image look like on both sides, ready to be compared with another's.
+/// The colours on both sides of the edges of an image, prepared for comparison.
 ///
-/// Colours are compared in logarithms, 0 .. 255 brought to the same range, where another
-/// illumination is another offset; the dark end, which is mostly noise, is compressed less than a
-/// true logarithm would. The pictures of a cluster show about the same: their mean and spread are
-/// brought to those of the reference, channel by channel, which takes another exposure out.
+/// Colours are compared in logarithms, 0 .. 255 brought to the same range, where a change of
+/// illumination is an offset; the dark end, which is mostly noise, is compressed less than a
+/// true logarithm would. The images of a cluster show about the same scene: their mean and spread are
+/// normalized to those of the reference, channel by channel, which compensates for the exposure.
 class SideColors
 {
 public:

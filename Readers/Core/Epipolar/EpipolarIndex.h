@@ -12,12 +12,12 @@
 namespace freespace
 {
 
-/// The chains of one image, cut into the pieces between their tokens and sorted by the rows of
-/// a pair's rectified frame, so that those which cross an epipolar line are found at once.
+/// A spatial index of the chains of one image: the pieces between tokens, sorted by the rows of a pair's
+/// rectified frame, so that those crossing an epipolar line are found in constant time.
 class EpipolarIndex
 {
 public:
-  /// What lies between one token and the next of its chain, in rectified pixels.
+  /// The piece of a chain between two tokens, in rectified pixels.
   struct Piece
   {
     float low = 0, high = 0;          ///< rows between which it lies: [low, high)

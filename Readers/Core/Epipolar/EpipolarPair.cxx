@@ -13,7 +13,7 @@ EpipolarPair::EpipolarPair(const Camera& reference, const Camera& other)
   {
     throw Error("Two images of a triplet are taken from the same place.");
   }
-  // Looks the way both cameras look on average, across the baseline.
+  // The mean viewing direction of both cameras, perpendicular to the baseline.
   const Eigen::Vector3d forward = (reference.R.row(2) + other.R.row(2)).transpose();
   const Eigen::Vector3d x = line.normalized();
   Eigen::Vector3d z = forward - forward.dot(x) * x;

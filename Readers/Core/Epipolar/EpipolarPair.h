@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// Rectifies what two cameras see: both are turned to one orientation whose x axis lies along the
+/// Rectifies two cameras: both are turned to one orientation whose x axis lies along the
 /// line from the reference's centre to the other's. A point then has the same row v in both and its
 /// columns differ by baseline / depth. Edge positions are rectified, never images, so that nothing
 /// is resampled, and each pair has its own exact geometry: the three centres of a triplet need not

@@ -10,8 +10,7 @@
 namespace freespace
 {
 
-/// The rays of several tokens in a pair's rectified frame, each value in a row of its own, so that
-/// processors take several tokens at once.
+/// The rays of several tokens in a pair's rectified frame, as a structure of arrays for vectorization.
 class EpipolarRays
 {
 public:

@@ -19,8 +19,8 @@ enum class LensKind
   FieldOfView       ///< atan(2 r tan(w / 2)) / w: w
 };
 
-/// A photograph with the camera that took it. The lens's distortion stands beside the pinhole
-/// camera: the stages after the undistortion know the pinhole only.
+/// An image with the camera that took it. The lens distortion is kept separate from the pinhole
+/// camera, because the stages after the undistortion use the pinhole only.
 struct CalibratedImage
 {
   std::string file; ///< relative to the scene's `images`
@@ -30,7 +30,7 @@ struct CalibratedImage
   /// coordinates (x / z, y / z) are distorted, so that the pixel convention of K does not matter.
   std::vector<double> distortion;
 
-  /// Whether the image is what the pinhole camera sees.
+  /// Whether the image has no lens distortion.
   bool IsPinhole() const { return this->lens == LensKind::Perspective && this->distortion.empty(); }
 };
 

@@ -16,10 +16,10 @@ namespace freespace
 namespace
 {
 
-// The number that is white, given the greatest of an image.
+// The value of white, given the maximum of an image.
 double WhiteOf(double greatest, bool isReal)
 {
-  // Real numbers go a little beyond 1, where light is brighter than white.
+  // Floating point values may exceed 1 a little, in highlights.
   constexpr double brightest = 2.0, eight = 255, twelve = 4095, fourteen = 16383, sixteen = 65535;
   if (isReal && greatest <= brightest)
   {

@@ -14,9 +14,9 @@ namespace freespace
 /// Throws Error naming the file when it is a JPEG that lost a part. See EightBits.
 cv::Mat DecodeImage(const std::string& file, bool isColor);
 
-/// An image of more than 8 bits brought to 8 by the range of its numbers: cameras put 12 or 14 bits into
-/// files of 16, and floating point has 0 to 1, or the numbers of 8 or 16 bits. The range is the smallest of
-/// these that holds all numbers; those below 0 and NaN are black. An image of 8 bits is returned as it is.
+/// Converts an image of more than 8 bits to 8 by the range of its values: cameras put 12 or 14 bits into
+/// files of 16, and floating point images have 0 to 1, or the range of 8 or 16 bits. The range is the smallest of
+/// these that holds all values; those below 0 and NaN are black. An image of 8 bits is returned as it is.
 cv::Mat EightBits(const cv::Mat& image);
 
 }

@@ -17,7 +17,7 @@ namespace freespace
 namespace
 {
 
-// Where the disparities lie on a scale of 0 .. 255; its dark ends are left out.
+// Positions of the disparities on a colour scale of 0 .. 255, without its dark ends.
 std::vector<std::uint8_t> ScaledDisparities(const View& view)
 {
   std::vector<double> disparity;

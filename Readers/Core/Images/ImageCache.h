@@ -14,9 +14,8 @@
 namespace freespace
 {
 
-/// What is made of an image once, and kept for those that ask for it again: what was asked for last, as far
-/// as memory allows. It depends on the image's intrinsics, not on its pose. Several threads may ask at the
-/// same time.
+/// A cache of values computed from images, which keeps the most recently used ones as far as memory allows.
+/// They depend on the intrinsics of the image, not on its pose. Thread-safe.
 template <typename Value>
 class ImageCache
 {
@@ -27,8 +26,8 @@ public:
   {
   }
 
-  /// The value of an image. Where it is not kept, make() returns it and size(value) tells how large it is. A
-  /// value that the cache lets go of lives on with those who hold it.
+  /// The value of an image. If it is not in the cache, make() computes it and size(value) returns its size. A
+  /// value that is evicted stays valid for its users.
   template <typename Make, typename Size>
   std::shared_ptr<const Value> Find(
     const CalibratedImage& image, const Make& make, const Size& size)
@@ -75,7 +74,7 @@ private:
     return known;
   }
 
-  // Keeps the value, and lets go of those that were not asked for longest.
+  // Keeps the value and evicts the least recently used ones.
   void Keep(Entry& entry, const std::shared_ptr<const Value>& value, std::size_t size)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);

@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// A photograph with 8 bits of blue, green and red. Throws Error naming the file when it is missing,
+/// An image with 8 bits of blue, green and red. Throws Error naming the file when it is missing,
 /// unreadable or of another size than its camera's.
 cv::Mat LoadImage(const std::string& path, int width, int height);
 

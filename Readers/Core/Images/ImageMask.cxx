@@ -41,7 +41,7 @@ cv::Mat LoadMask(const std::string& path, int width, int height)
   if (std::abs(x - y) > alike * x)
   {
     throw Error("The mask " + path + " has " + std::to_string(mask.cols) + " x " +
-      std::to_string(mask.rows) + " pixels, another shape than its photograph of " +
+      std::to_string(mask.rows) + " pixels, another shape than its image of " +
       std::to_string(width) + " x " + std::to_string(height) + ".");
   }
   cv::Mat scaled;

@@ -9,8 +9,8 @@
 namespace freespace
 {
 
-/// Width and height of a picture as it is stored, pixels: of a JPEG or PNG from its header, of others by
-/// decoding. Nothing where the file is missing or no picture.
+/// Width and height of an image as it is stored, pixels: of a JPEG or PNG from its header, of others by
+/// decoding. Nothing if the file is missing or not an image.
 std::optional<std::array<int, 2>> ReadImageSize(const std::string& path);
 
 }

@@ -154,8 +154,8 @@ std::vector<Eigen::Vector2d> UndistortNormalized(
   return points;
 }
 
-// Solvers end somewhere where there is no solution, and OpenCV's clamps the angle: only what is shown where
-// it was found has been found.
+// Solvers return a value even without a solution, and OpenCV's clamps the angle: a result is accepted only
+// if it distorts back to the given pixel.
 void RemoveUnseen(const CalibratedImage& image, const std::vector<Eigen::Vector2d>& pixels,
   std::vector<Eigen::Vector2d>& undistorted)
 {

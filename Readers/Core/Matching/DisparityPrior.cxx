@@ -43,7 +43,7 @@ int DisparityPrior::CellOf(const Eigen::Vector2d& pixel) const
     clamp(pixel.x() / CellSize, this->Columns);
 }
 
-// Breadth first, from the cells that know.
+// Breadth-first search from the cells that have a value.
 void DisparityPrior::SpreadToEmptyCells()
 {
   std::vector<int> queue;

@@ -17,7 +17,7 @@ public:
   DisparityPrior(
     const std::vector<Eigen::Vector2d>& pixels, const std::vector<double>& disparities);
 
-  /// 0 when nothing is known anywhere.
+  /// 0 if there are no known matches.
   double At(const Eigen::Vector2d& pixel) const;
 
 private:

@@ -15,7 +15,7 @@ struct ImageEdges
   EdgeChains edges;
 };
 
-/// What became of a token of the reference image.
+/// The match of a token of the reference image.
 struct EdgeMatch
 {
   int images = 0;       ///< besides the reference that show it: 0 when it has no match, 1 where it

@@ -110,7 +110,7 @@ void HypothesisBuilder::Confirm(const EdgeCandidate& seed, std::size_t begin, st
   this->Found.push_back(hypothesis);
 }
 
-// A repeated pattern matches itself at several disparities: the one that is usual around it wins.
+// A repeated pattern matches itself at several disparities: the one closest to the prior is preferred.
 void HypothesisBuilder::ApplyPrior(int token)
 {
   constexpr double weight = 0.4, scale = 8; // pixels of the longest baseline

@@ -29,7 +29,7 @@ public:
   HypothesisBuilder(
     const EdgeChains& edges, CandidateSearch& search, const MatcherOptions& options);
 
-  /// Takes the disparity that is usual around a token into account; without a prior, none is.
+  /// Sets the prior of the disparity around a token; null: none.
   void SetPrior(std::unique_ptr<DisparityPrior> prior) { this->Prior = std::move(prior); }
 
   /// Appends the best hypotheses of a token, made of its candidates, and "no match" to the states of

@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// When edges of several images are taken for images of one edge in space.
+/// Criteria for edges of several images to be images of one edge in space.
 struct MatcherOptions
 {
   double minimumDisparity = 0; ///< 1 / depth in the reference camera, 1 / unit of length; >= 0

@@ -21,8 +21,8 @@ inline double DisparityJump(const EdgeHypothesis& from, const EdgeHypothesis& to
 }
 
 /// Makes matches of the hypotheses that were chosen along the reference's chains: the point nearest
-/// to all edge lines gives the disparity, a chain is cut where the disparity jumps, what does not
-/// lie on the line through its neighbours is dropped, and so are pieces that are too short. A token
+/// to all edge lines gives the disparity, a chain is cut where the disparity jumps, and tokens
+/// off the line through their neighbours and pieces that are too short are dropped. A token
 /// without confirmation by a third image stays only where it closes a gap between two that have it.
 /// One match per token.
 LargeVector<EdgeMatch> MatchRuns(const EdgeChains& edges, LargeVector<EdgeHypothesis> chosen,

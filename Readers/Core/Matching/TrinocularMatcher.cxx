@@ -33,7 +33,7 @@ public:
 
   LargeVector<EdgeMatch> Match();
 
-  // What the matches rest upon.
+  // The tokens that support the matches.
   LargeVector<EdgeCandidate> TakeSupport() { return std::move(this->Optimizer.Support); }
 
 private:
@@ -67,7 +67,7 @@ LargeVector<EdgeMatch> Matcher::Match()
   return matches;
 }
 
-// Derives a prior from the chains that are sure of their matches.
+// Derives a prior from the chains with unambiguous matches.
 void Matcher::LearnPrior(const std::vector<std::size_t>& ambiguous)
 {
   std::vector<char> sure(this->Edges.tokens.size(), 1);

@@ -11,7 +11,7 @@ namespace freespace
 {
 
 /// The disparity between a view's features: linear over the triangles of their Delaunay triangulation in
-/// the image. Triangles so steep that they are bridges over a depth jump have none.
+/// the image. Triangles so steep that they are bridges have none.
 class DisparityPlanes
 {
 public:

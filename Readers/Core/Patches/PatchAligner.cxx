@@ -17,8 +17,8 @@ namespace
 // Of the grey levels, standard deviation.
 constexpr double Noise = 0.5;
 
-// How well the place of a pattern is known at best, pixels: sampling and cameras are not exact. Steep grey
-// levels are less certain for it.
+// Lower bound of the error of a position, in pixels, since sampling and cameras are not exact. It makes
+// steep grey levels less certain.
 constexpr double PlaceDeviation = 0.1;
 
 // Images are smoothed and interpolated, and a surface is not quite a plane, so that a window has fewer
@@ -34,11 +34,11 @@ constexpr double SlopeDeviation = 0.7;
 // A partner that correlates less with the reference shows something else.
 constexpr double LeastCorrelation = 0.3;
 
-// A plane whose window moves less in every partner has converged, pixels.
+// Convergence: the largest motion of the window in a partner, in pixels, is below this.
 constexpr double Still = 0.03;
 
-// The middle of a window, in which it must have contrast: otherwise an edge at its rim would put a feature
-// where nothing is known.
+// The centre of a window, which must have contrast: otherwise an edge at the rim would determine a feature
+// in a part without texture.
 constexpr int MiddleRadius = 2;
 constexpr double MiddleShare = 0.4; // of the whole window's contrast
 
@@ -185,7 +185,7 @@ void PatchAligner::Add(const Window& window, const PatchPlane& plane, const Valu
   Matrix3d normal;
   normal << sums.s, su, sv, su, suu, suv, sv, suv, svv;
   const Vector3d right(sums.r, u * sums.r + step * sums.rc, v * sums.r + step * sums.rr);
-  // What agrees better counts more.
+  // Partners that agree better have more weight.
   const double weight = correlation * correlation;
   equations.normal += weight * normal;
   equations.right -= weight * right;

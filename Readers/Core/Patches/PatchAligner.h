@@ -28,7 +28,7 @@ struct PatchPlane
   }
 };
 
-/// What an alignment gives.
+/// The result of an alignment.
 struct AlignedPatch
 {
   bool isGood = false; ///< it correlates, and its deviation is small enough

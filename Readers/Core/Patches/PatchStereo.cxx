@@ -16,15 +16,15 @@ using Eigen::Vector2d;
 namespace
 {
 
-// A place of the grid has no feature and no seed so near, pixels in rows and columns.
+// Minimum distance of a grid point from features and seeds, in pixels along rows and columns.
 constexpr int EmptyRadius = 3;
 
-// Where a patch does not converge from where it is, one of half the resolution may: it sees twice as far, and
-// need not be as accurate.
+// Where a patch does not converge, one at half the resolution may: its range of convergence is twice as
+// large, and it need not be as accurate.
 constexpr double CoarseCorrelation = 0.6;
 constexpr double CoarseDeviation = 4; // times that of a feature
 
-// Places of a grid outside of the mask that have no feature and no seed beside them.
+// Points of a grid outside the mask that have no feature and no seed near them.
 std::vector<Vector2d> EmptyPlaces(
   const View& view, const std::vector<Vector2d>& seeds, const cv::Mat1b& mask, int spacing)
 {

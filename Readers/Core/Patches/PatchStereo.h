@@ -13,7 +13,7 @@
 namespace freespace
 {
 
-/// A feature that a patch of the images gives: the middle of a small plane.
+/// A feature found by aligning a patch: the centre of a small plane.
 struct PatchFeature
 {
   Eigen::Vector2d imagePoint;
@@ -24,9 +24,10 @@ struct PatchFeature
 };
 
 /// Looks for features where the edges of a view leave gaps ("more correspondences will only serve to improve the
-/// quality", section 2.2): at seeds, which are edges without a match, and on a grid where nothing else
-/// is near, where the image's mask is not black. Small planes that lie between the view's features are aligned to the images of the cluster, see
-/// PatchAligner; those that are good become features. In the order of the seeds, then of the grid's rows.
+/// quality", section 2.2): at seeds, which are edges without a match, and on a grid where no feature
+/// is near, outside the image's mask. Small planes interpolated from the view's features are aligned to the
+/// images of the cluster, see PatchAligner; those that converge become features. In the order of the seeds,
+/// then of the grid's rows.
 ///
 /// Throws Error naming the file or view: an image that cannot be read, features that are collinear. Throws Aborted
 /// when the flag is set.

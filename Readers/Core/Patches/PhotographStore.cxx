@@ -12,7 +12,7 @@ namespace freespace
 namespace
 {
 
-// Against the noise, and so that interpolation between pixels is accurate.
+// Reduces the noise and makes the interpolation between pixels accurate.
 constexpr double Smoothing = 0.7; // sigma, pixels
 
 constexpr int Levels = 2;

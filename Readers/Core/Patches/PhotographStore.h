@@ -23,12 +23,12 @@ struct Photograph
   std::vector<cv::Mat1f> levels;
 };
 
-/// The images of a scene. An image takes part in several clusters: what was asked for last is kept, as far
-/// as memory allows. Several threads may ask at the same time.
+/// The images of a scene. An image belongs to several clusters: the most recently used ones are kept, as far
+/// as memory allows. Thread-safe.
 class PhotographStore
 {
 public:
-  /// Keeps what was asked for last while it has up to `mostPixels` pixels (of 8 bytes).
+  /// Keeps up to `mostPixels` pixels (of 8 bytes) of the most recently used images.
   explicit PhotographStore(const Scene& scene, std::size_t mostPixels = std::size_t(1) << 26);
 
   /// Throws Error naming the file: missing, unreadable or of another size than the camera's.

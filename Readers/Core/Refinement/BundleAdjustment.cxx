@@ -17,8 +17,8 @@ namespace freespace
 namespace
 {
 
-// How a camera moves from where it was given: a turn about its own centre (angle-axis, radians) and
-// a step in its own frame, in depths of the scene. Small numbers of about the same size.
+// The motion of a camera from its given pose: a rotation about its own centre (angle-axis, radians) and
+// a translation in its own frame, in depths of the scene, so that all parameters have a similar scale.
 using Motion = std::array<double, 6>;
 
 // The world point in the frame of a camera that has moved.
@@ -42,8 +42,8 @@ Eigen::Matrix<T, 2, 1> Pixel(
   return K.cast<T>() * image + given.K.topRightCorner<2, 1>().cast<T>();
 }
 
-// How far a point's image lies from the edge that shows it, in deviations. Along the edge only the
-// reference holds it, which no other image contradicts.
+// The distance of a point's projection from its edge, in deviations. Along the edge it is constrained by
+// the reference only.
 struct EdgeDistance
 {
   template <typename T>
@@ -69,7 +69,7 @@ struct EdgeDistance
   double weight, weightAlong;
 };
 
-// How far a camera has moved, in deviations.
+// The motion of a camera, in deviations.
 struct MotionSize
 {
   template <typename T>
@@ -160,7 +160,7 @@ private:
     }
   }
 
-  // What brought the given cameras to where they are now.
+  // The motion from the given cameras to the current ones.
   void FindMotions()
   {
     for (std::size_t i = 0; i < this->Given.size(); ++i)

@@ -24,7 +24,7 @@ struct BundleAdjustmentOptions
   void Check() const;
 };
 
-/// What an adjustment achieved. Residuals are medians of the distances across the edges, pixels.
+/// The result of an adjustment. Residuals are medians of the distances across the edges, pixels.
 struct BundleAdjustmentSummary
 {
   double residualBefore = 0; ///< the points in their best places, the cameras as given
@@ -34,12 +34,12 @@ struct BundleAdjustmentSummary
 };
 
 /// Moves cameras and the tracks' points so that the points' images lie on the edges (section 3's third
-/// image confirms by this distance). Robust: edges that do not belong together hardly count. The
-/// frame of the world, its scale and what the edges do not tell stay as given, because each camera is
-/// held, softly, to the given one. One thread, the same result on each run.
+/// image confirms by this distance). A robust loss limits the influence of wrong matches. A
+/// weak prior holds each camera to the given one, and with it the frame of the world, its scale and all that
+/// the edges do not determine. One thread, the same result on each run.
 ///
-/// cameras: where to begin, the given ones or those of an earlier adjustment; moved.///
-/// lensOf: index of each camera's lens; cameras of one lens share what happens to its focal length.
+/// cameras: the initial ones, given or from an earlier adjustment; adjusted in place.
+/// lensOf: index of each camera's lens; cameras of one lens share the change of its focal length.
 /// A camera that no track of three or more images observes does not move.
 BundleAdjustmentSummary AdjustCameras(const std::vector<Camera>& given,
   std::vector<Camera>& cameras, const std::vector<int>& lensOf, std::vector<EdgeTrack>& tracks,

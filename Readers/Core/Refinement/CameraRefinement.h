@@ -17,7 +17,7 @@
 namespace freespace
 {
 
-/// How the cameras of a scene are refined by the edges of its photographs.
+/// How the cameras of a scene are refined by the edges of its images.
 struct CameraRefinementOptions
 {
   BundleAdjustmentOptions adjustment;
@@ -31,7 +31,7 @@ struct CameraRefinementOptions
   void Check() const;
 };
 
-/// What became of a scene's cameras.
+/// The result of the refinement.
 struct CameraRefinement
 {
   std::vector<CalibratedImage> images; ///< as given or refined, in the given order
@@ -43,12 +43,12 @@ struct CameraRefinement
 };
 
 /// Refines the poses of the images (and the focal lengths where asked): the edges of each are matched
-/// with those of its neighbours, loosely at first, and the cameras moved such that all of them meet
-/// (AdjustCameras); then more strictly, with the cameras moved. Images that no cluster holds stay as
+/// with those of its neighbours, loosely at first, and the cameras are adjusted to them
+/// (AdjustCameras); then more strictly, with the adjusted cameras. Images that no cluster holds stay as
 /// they are. The same result for any number of threads.
 ///
-/// Where the given cameras are exact, noise alone would move them: they stay, exactly, where
-/// the edges would move them by no more than that.
+/// Noise alone moves exact cameras: cameras that the edges move by no more than that are not
+/// changed at all.
 ///
 /// known: tracks of some clusters that were matched with the given cameras, with the same options
 /// (FindWrongImages): they are not matched again.

@@ -12,7 +12,7 @@
 namespace freespace
 {
 
-/// Where an image shows a point of an edge: somewhere on the line through `position` along the edge.
+/// The observation of a point of an edge: it lies on the line through `position` along the edge.
 struct EdgeObservation
 {
   int image = 0;                                      ///< index of the camera
@@ -21,8 +21,8 @@ struct EdgeObservation
   double uncertainty = 1; ///< of the position across the edge, in that of a strong edge; > 0
 };
 
-/// One point of an edge in space and its images, the reference first. The reference decides which
-/// point of the edge it is, the others tell its distance across the edge only.
+/// One point of an edge in space and its images, the reference first. The reference selects the
+/// point of the edge, the others constrain it only across the edge.
 struct EdgeTrack
 {
   Eigen::Vector3d point = Eigen::Vector3d::Zero(); ///< world
@@ -32,7 +32,7 @@ struct EdgeTrack
 /// The tracks of clusters, by their images.
 using ClusterTracks = std::map<decltype(Cluster::triplets), std::vector<EdgeTrack>>;
 
-/// Tracks of a cluster's matches that a third image confirms, about `most` of them, evenly taken.
+/// Tracks of a cluster's matches that a third image confirms, about `most` of them, evenly chosen.
 std::vector<EdgeTrack> TracksOfCluster(const ClusterMatches& cluster, std::size_t most);
 
 }

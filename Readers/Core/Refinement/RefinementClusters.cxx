@@ -13,7 +13,7 @@ namespace freespace
 namespace
 {
 
-// Wider than for matching alone: the angle between two rays tells where the cameras are.
+// Wider than for matching alone: large angles between rays constrain the poses of the cameras.
 ClusterProposalOptions NeighborOptions()
 {
   ClusterProposalOptions options;

@@ -9,9 +9,9 @@
 namespace freespace
 {
 
-/// Clusters whose matches tie the cameras of a scene together: one around each image, of the (at most)
-/// `neighbors` images that suit it best. Where the scene names clusters, their images alone, else those
-/// of the model whose photographs are there. An image with fewer than two neighbours has none.
+/// Clusters whose matches tie the cameras of a scene together: one around each image, of at most
+/// `neighbors` images that match it best. Only the images of the scene's clusters if it names any, else those
+/// of the model whose files exist. An image with fewer than two neighbours has none.
 std::vector<Cluster> ClustersForRefinement(const Scene& scene, SparseModel model, int neighbors);
 
 }

@@ -11,7 +11,7 @@ namespace freespace
 namespace
 {
 
-// What nanoflann asks of a set of points.
+// The interface that nanoflann requires of a point set.
 struct Cloud
 {
   std::vector<Eigen::Vector3d> points;

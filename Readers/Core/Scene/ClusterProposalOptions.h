@@ -5,14 +5,14 @@
 namespace freespace
 {
 
-/// What makes images good neighbours for edge stereo, and which of them are worth to be references.
-/// All lengths are judged as angles at the scene, so that nothing here has a unit of length.
+/// Criteria for the neighbours of edge stereo and for the choice of references. Lengths are measured as
+/// angles at the scene, so that no field has a unit of length.
 struct ClusterProposalOptions
 {
   double preferredAngle = 5.0; ///< between the rays of a neighbour and the reference, degrees
   double minimumAngle = 1.0;   ///< below it depth is too uncertain, degrees; > 0
-  double maximumAngle = 30.0;  ///< above it the pictures differ too much, degrees
-  double minimumOverlap = 0.4; ///< fraction of the reference's picture that a neighbour sees too
+  double maximumAngle = 30.0;  ///< above it the images differ too much, degrees
+  double minimumOverlap = 0.4; ///< fraction of the reference's image that a neighbour sees too
   int neighbors = 4;           ///< of a reference at most, 2 or 4
   double separation = 5.0;     ///< of two references seen from the scene, degrees: nearer ones have
                                ///< the same free space; 0 makes every possible image a reference

@@ -11,11 +11,11 @@ namespace freespace
 
 /// Clusters of the same images in which every other image than the reference is the reference, too.
 ///
-/// Beyond the paper, which takes the middle image of a cluster alone: the others see a little round
-/// the things that hide the rest from it. An image that stood at the end of a triplet is put in its
+/// An extension of the paper, which uses the middle image of a cluster only: the others see parts of the
+/// scene that are occluded in it. An image that stood at the end of a triplet is put in its
 /// middle, and in that of all the cluster's other triplets. The new clusters are named after their
 /// cluster and image. An image that is a reference already, or becomes one by an earlier cluster, is
-/// not taken again.
+/// not used again.
 std::vector<Cluster> ClustersOfEveryImage(const std::vector<Cluster>& clusters);
 
 }

@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> Centers(const std::vector<CalibratedImage>& images)
   return centers;
 }
 
-// Points that an image observes, about evenly taken from its list.
+// A sample of the points that an image observes, evenly chosen from its list.
 std::vector<int> SampleOf(const std::vector<int>& pointOf)
 {
   std::vector<int> points;
@@ -78,7 +78,7 @@ double ScaleQuality(const Camera& a, const Camera& b, const Eigen::Vector3d& tar
   return ratio > 0 ? std::exp(-0.5 * std::pow(std::log(ratio) / std::log(1.5), 2)) : 0;
 }
 
-// The sine between the axis and a baseline whose epipole is just outside the picture.
+// The sine between the axis and a baseline whose epipole is just outside the image.
 double LeastSideways(const Camera& camera)
 {
   const double diagonal = 0.5 * std::hypot(camera.width, camera.height);
@@ -201,7 +201,7 @@ double ImageNeighborhoods::SceneDepth(std::size_t i) const
   return MedianOr(std::move(depths), nearest / std::tan(this->Options.preferredAngle * radian));
 }
 
-// A grid over the picture at the depth of the scene.
+// A grid over the image at the depth of the scene.
 std::vector<Eigen::Vector3d> ImageNeighborhoods::Screen(std::size_t i) const
 {
   constexpr int steps = 9;
@@ -216,14 +216,14 @@ std::vector<Eigen::Vector3d> ImageNeighborhoods::Screen(std::size_t i) const
   return points;
 }
 
-// What the axis meets at the depth of the scene.
+// The point on the axis at the depth of the scene.
 Eigen::Vector3d ImageNeighborhoods::Target(std::size_t i) const
 {
   const Camera& camera = this->CameraOf(i);
   return camera.Unproject({ camera.width / 2.0, camera.height / 2.0 }, this->Depths[i]);
 }
 
-// The images nearest to the reference and nearest to where good neighbours would stand: at the
+// The images nearest to the reference and nearest to the ideal positions of neighbours: at the
 // preferred angle, and at twice that.
 std::vector<int> ImageNeighborhoods::Candidates(std::size_t i) const
 {
@@ -252,7 +252,7 @@ std::optional<Neighbor> ImageNeighborhoods::Judge(std::size_t i, int j) const
   neighbor.image = j;
   neighbor.distance = baseline.norm();
   neighbor.angle = this->AngleBetween(i, static_cast<std::size_t>(j));
-  // Outside the angles' range, or so far before the reference that the epipole is in the picture.
+  // Outside the angles' range, or so far before the reference that the epipole is in the image.
   const double sideways = baseline.head<2>().norm() / neighbor.distance;
   if (!(neighbor.angle >= this->Options.minimumAngle * radian) ||
     neighbor.angle > this->Options.maximumAngle * radian || sideways < LeastSideways(camera))
@@ -270,8 +270,8 @@ std::optional<Neighbor> ImageNeighborhoods::Judge(std::size_t i, int j) const
   return neighbor;
 }
 
-// 1 at the preferred angle, 0.6 at 2.2 times as much or as little: what is far from it is less
-// welcome, and taken where the set has nothing else.
+// 1 at the preferred angle, 0.6 at 2.2 times as much or as little: others are less
+// preferred, and used where the set has nothing else.
 double ImageNeighborhoods::AngleQuality(double angle) const
 {
   const double ratio = angle / (this->Options.preferredAngle * radian);

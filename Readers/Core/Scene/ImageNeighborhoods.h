@@ -18,18 +18,18 @@ struct Neighbor
 {
   int image = 0;
   double angle = 0;                                    ///< to the reference at the scene, radians
-  double overlap = 0;                                  ///< fraction of the reference's picture
+  double overlap = 0;                                  ///< fraction of the reference's image
   double distance = 0;                                 ///< of the centres
-  Eigen::Vector2d direction = Eigen::Vector2d::Zero(); ///< in the reference's picture, of length 1
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero(); ///< in the reference's image, of length 1
   double quality = 0;                                  ///< in (0, 1]
 };
 
-/// What each image of a model sees, as a sample of points, and which images stand about it so that
-/// edge stereo can match them.
+/// What each image of a model sees, as a sample of points, and which neighbours edge stereo can match it
+/// with.
 ///
-/// The samples are the model's own points. An image without points is taken to look at where its
-/// neighbours' optical axes pass its own, or, with parallel axes, so far that the nearest image is at
-/// the preferred angle; its sample is a grid over its picture at that depth.
+/// The samples are the model's own points. An image without points is assumed to look at where its
+/// neighbours' optical axes pass its own or, with parallel axes, at the distance at which the nearest image
+/// is at the preferred angle; its sample is a grid over its image at that depth.
 class ImageNeighborhoods
 {
 public:
@@ -41,18 +41,18 @@ public:
   /// Of the scene along the optical axis.
   double Depth(std::size_t i) const { return this->Depths[i]; }
 
-  /// The suitable ones among the images about the places where good neighbours would stand, the best
-  /// first; a bounded number.
+  /// The suitable images near the ideal positions of neighbours, the best first; a bounded
+  /// number.
   std::vector<Neighbor> NeighborsOf(std::size_t i) const;
 
-  /// Of the points that image i sees, the fraction that lies in the picture of j. 0 where the model
-  /// knows that they have not a point in common: something stands between.
+  /// Of the points that image i sees, the fraction that lies in the image of j. 0 if, by the
+  /// model, they have no point in common, as when something occludes the view.
   double Overlap(std::size_t i, std::size_t j) const;
 
   /// Between the rays from the middle of what image i sees to both centres, radians.
   double AngleBetween(std::size_t i, std::size_t j) const;
 
-  /// The images that stand nearer to image i than this angle, radians, seen from the scene.
+  /// The images within this angle of image i, seen from the scene, in radians.
   std::vector<int> Within(std::size_t i, double angle) const;
 
 private:

@@ -19,13 +19,13 @@ namespace
 
 constexpr double radian = 3.14159265358979323846 / 180;
 
-// What a triplet counts whose neighbours do not stand on opposite sides of the reference.
+// Weight of a triplet whose neighbours are not on opposite sides of the reference.
 constexpr double Bent = 0.3;
 
-// A second triplet is not worth its time when it would add less to the first, as a fraction of it.
+// Minimum gain of a second triplet, as a fraction of the quality of the first.
 constexpr double LeastGain = 0.1;
 
-// A second triplet along the first must be so good, as a fraction of it.
+// Minimum quality of a second triplet along the first, as a fraction of that of the first.
 constexpr double LeastAlong = 0.3;
 
 // The two images of a triplet as the reference sees them.
@@ -129,7 +129,7 @@ ProposedCluster BestCluster(std::size_t reference, const std::vector<Pair>& pair
   return best;
 }
 
-// Without its folder and its ending.
+// Without its folder and extension.
 std::string Stem(const std::string& image)
 {
   return std::filesystem::path(image).stem().string();

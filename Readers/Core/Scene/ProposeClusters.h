@@ -17,7 +17,7 @@ struct ProposedTriplet
 {
   std::array<int, 2> neighbors = { 0, 0 };  ///< indices of images; left or upper, right or lower
   std::array<double, 2> angle = { 0, 0 };   ///< of each to the reference, degrees at the scene
-  std::array<double, 2> overlap = { 0, 0 }; ///< fraction of the reference's picture seen by each
+  std::array<double, 2> overlap = { 0, 0 }; ///< fraction of the reference's image seen by each
   double quality = 0;                       ///< in (0, 1]
 };
 
@@ -33,7 +33,7 @@ struct ProposedCluster
   bool cross = false;
 };
 
-/// What became of the images of a model.
+/// The clusters of a model, and the images that have none.
 struct ClusterProposal
 {
   std::vector<ProposedCluster> clusters; ///< in the order of their references
@@ -44,18 +44,18 @@ struct ClusterProposal
 };
 
 /// Chooses, for each image, the neighbours that make the best cross or else the best row, by
-/// baseline, overlap and viewing angle, each image compared with its own surroundings only; and of
-/// these clusters those that are worth their time, see ChooseReferences.
+/// baseline, overlap and viewing angle, each image compared with its own surroundings only; then selects
+/// the clusters to keep, see ChooseReferences.
 ///
-/// How far away the scene is, and what two images have in common, is told by ImageNeighborhoods. The
-/// time is that of n log n for n images with a bounded number of observations each.
+/// The distance of the scene and the overlap of images come from ImageNeighborhoods. The time is
+/// O(n log n) for n images with a bounded number of observations each.
 ClusterProposal ProposeClusters(const SparseModel& model, const ClusterProposalOptions& options);
 
 /// As a scene.json has them; each is named after its reference.
 std::vector<Cluster> ClustersFromProposal(
   const SparseModel& model, const std::vector<ProposedCluster>& proposal);
 
-/// A table for people: a line for each triplet with its images, angles and overlaps.
+/// A readable table: a line for each triplet with its images, angles and overlaps.
 std::string DescribeClusters(
   const SparseModel& model, const std::vector<ProposedCluster>& proposal);
 

@@ -17,7 +17,7 @@ constexpr double radian = 3.14159265358979323846 / 180;
 constexpr double SameSight = 0.6;
 constexpr double SameWay = 30 * radian;
 
-// What the references chosen so far do for an image.
+// How well the references chosen so far cover an image.
 struct Covered
 {
   double nearest = std::numeric_limits<double>::infinity(); // angle to the nearest one, radians
@@ -29,7 +29,7 @@ double AngleOfAxes(const Camera& a, const Camera& b)
   return std::acos(std::clamp(a.R.row(2).dot(b.R.row(2)), -1.0, 1.0));
 }
 
-// Adds a reference to what its surroundings are covered by.
+// Adds a reference to the coverage of its surroundings.
 void Cover(const ImageNeighborhoods& images, int reference, double reach, double farthest,
   std::vector<Covered>& covered)
 {

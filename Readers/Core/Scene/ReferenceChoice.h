@@ -16,11 +16,11 @@ struct PossibleReference
   double quality = 0; ///< of its cluster
 };
 
-/// Chooses the references that are worth their time, such that all that is seen stays covered:
-/// first far apart, the best first, then between these nearer and nearer, down to the separation. An
+/// Chooses references such that everything that is seen stays covered: first far apart, the best first,
+/// then between these at smaller and smaller distances, down to the separation. An
 /// image is left out when a reference stands nearer than that and sees most of the same, or when as
 /// many references as the options' coverage, none farther than the coverage angle, do. Returns images in
-/// ascending order. The time is that of n log n with a bounded number of references about an image.
+/// ascending order. The time is O(n log n) if the number of references near an image is bounded.
 std::vector<int> ChooseReferences(const ImageNeighborhoods& images,
   std::vector<PossibleReference> possible, const ClusterProposalOptions& options);
 

@@ -24,7 +24,7 @@ bool IsScaled(const SparseCamera& camera, const std::array<int, 2>& size)
     return false;
   }
   constexpr double rounding = 1; // pixel
-  constexpr double alike = 0.01; // in small pictures a pixel is much
+  constexpr double alike = 0.01; // in small images a pixel is much
   const double x = size[0] / width, y = size[1] / height, scale = std::max(x, y);
   return std::abs(scale * width - size[0]) <= rounding &&
     std::abs(scale * height - size[1]) <= rounding && std::abs(x - y) <= alike * scale;
@@ -101,7 +101,7 @@ std::string ScaleToPhotographs(const Scene& scene, SparseModel& model)
   std::snprintf(
     factor, sizeof(factor), most > 1.001 * least ? "%.4g to %.4g" : "%.4g", least, most);
   return std::to_string(count) + " of " + std::to_string(model.images.size()) +
-    " photographs have another size than their cameras, which are scaled by " + factor;
+    " images have another size than their cameras, which are scaled by " + factor;
 }
 
 }

@@ -91,7 +91,7 @@ void ReadBoardSize(const JsonNode& node, Board& board)
   const std::vector<JsonNode> size = node.Elements();
   if (size.size() != 2)
   {
-    node.Fail("here should stand two numbers, of columns and of rows");
+    node.Fail("expected two numbers, of columns and rows");
   }
   board.columns = size[0].Integer();
   board.rows = size[1].Integer();
@@ -137,7 +137,7 @@ std::string Resolve(const std::string& sceneFile, const std::string& folder)
   return (fs::path(sceneFile).parent_path() / folder).string();
 }
 
-// A folder that stands relative to one file, relative to another.
+// Converts a folder relative to one file to a folder relative to another.
 std::string Rebase(const std::string& from, const std::string& folder, const std::string& to)
 {
   if (folder.empty() || fs::path(folder).is_absolute())
@@ -150,7 +150,7 @@ std::string Rebase(const std::string& from, const std::string& folder, const std
   return (tooLong ? target : rebased).string();
 }
 
-// Ordered, so that the file reads as it is documented.
+// An ordered object keeps the documented order of keys.
 using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson JsonFromCluster(const Cluster& cluster)

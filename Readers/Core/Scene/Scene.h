@@ -58,14 +58,13 @@ struct Board
 ///       "board": { "type": "charuco", "squares": [15, 15], "square_m": 0.03, "marker_m": 0.0225,
 ///                  "dictionary": "DICT_5X5_250" } }
 ///
-/// `images` and `model`, any that FindModel finds, are relative to the file. So is `masks`, which may be left out: a folder with
-/// masks named after the image with .png behind, l.jpg.png, as COLMAP has them; what is black in a mask is
-/// ignored in the image. `clusters` and `board` may be left out. A
-/// chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
+/// `images` and `model`, any that FindModel finds, are relative to the file. So is the optional
+/// `masks`: a folder of masks, each named after its image with .png appended (l.jpg.png), as COLMAP has them;
+/// black pixels of a mask are ignored in the image. `clusters` and `board` are optional. A chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
 struct Scene
 {
   std::string file;              ///< the scene.json
-  std::string images;            ///< folder of the photographs as the file gives it
+  std::string images;            ///< folder of the images as the file gives it
   std::string model;             ///< folder or file of the camera model as the file gives it
   std::string masks;             ///< folder of the masks as the file gives it; empty: none
   std::vector<Cluster> clusters; ///< empty when the file has none: they are to be proposed
@@ -85,7 +84,7 @@ struct Scene
   std::string MaskPath(const std::string& image) const;
 };
 
-/// Reads a scene.json, or that of a folder. Of a model (FindModel) it makes a scene whose photographs are
+/// Reads a scene.json, or that of a folder. Of a model (FindModel) it makes a scene whose images are
 /// where the model's file tells, or else in the folder `images` beside the model or above it. Throws Error
 /// naming the file and the fault: broken JSON, a missing, unknown or ill-typed key, a triplet without the
 /// reference in its middle or with an image twice, two clusters of one name, a board that makes no sense.
@@ -95,7 +94,7 @@ Scene ReadScene(const std::string& file);
 /// are made relative to the new file. Throws Error when the file cannot be written.
 void WriteScene(const Scene& scene, const std::string& file);
 
-/// Reads the scene's camera model, its cameras scaled to the photographs (ScaleToPhotographs, which says
+/// Reads the scene's camera model, its cameras scaled to the images (ScaleToPhotographs, which says
 /// what is put into `scaled`). Throws Error when that fails (see ReadSparseModel) or when a
 /// cluster names an image that the model does not have.
 SparseModel ReadSceneModel(const Scene& scene, std::string* scaled = nullptr);

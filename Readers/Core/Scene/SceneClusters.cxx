@@ -23,7 +23,7 @@ SparseModel WithExistingPhotographs(const Scene& scene, SparseModel model)
     model.images.end());
   if (model.images.empty() && all > 0)
   {
-    throw Error("None of the " + std::to_string(all) + " photographs of " + scene.ModelFolder() +
+    throw Error("None of the " + std::to_string(all) + " images of " + scene.ModelFolder() +
       " is in the folder " + scene.ImagesFolder() + ".");
   }
   return model;
@@ -37,7 +37,7 @@ Scene WithProposedClusters(
   if (proposal.Empty())
   {
     throw Error("The scene " + scene.file +
-      " has no clusters, and none can be proposed: no photograph has two neighbours that see the "
+      " has no clusters, and none can be proposed: no image has two neighbours that see the "
       "same.");
   }
   scene.clusters = ClustersFromProposal(model, proposal.clusters);

@@ -9,12 +9,12 @@
 namespace freespace
 {
 
-/// The model with only those images whose photograph is there: SfM models often come without some.
+/// The model with only those images whose files exist: models often come without some.
 /// Where there is no folder of images at all, the whole model. Throws Error when the folder has none of
 /// them.
 SparseModel WithExistingPhotographs(const Scene& scene, SparseModel model);
 
-/// The scene with clusters proposed from its model, of those images whose photograph is there. Throws Error
+/// The scene with clusters proposed from its model, of those images whose files exist. Throws Error
 /// when no image can be a reference.
 Scene WithProposedClusters(Scene scene, const SparseModel& model,
   const ClusterProposalOptions& options, std::string* choice = nullptr);

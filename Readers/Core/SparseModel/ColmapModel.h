@@ -25,11 +25,11 @@ enum class ColmapFormat
   Binary
 };
 
-/// Writes cameras, images and points3D into a folder, which is made when only its last part is
-/// missing. Numbers of text files have as many digits as it takes to read the same number again.
+/// Writes cameras, images and points3D into a folder, which is created if only its last part is
+/// missing. Numbers in text files have the digits needed to read the same number again.
 /// The three files are made in a folder of their own and then renamed; files of the other format,
-/// which would stand for another model, are removed, and so are rigs and frames of an older one. Throws Error when the folder cannot be
-/// written.
+/// which could hold another model, are removed, and so are rigs and frames of an older one. Throws Error if
+/// the folder cannot be written.
 void WriteColmapModel(const SparseModel& model, const std::string& folder, ColmapFormat format);
 
 }

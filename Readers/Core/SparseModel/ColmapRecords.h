@@ -12,7 +12,7 @@ namespace freespace
 //   Value(number, what)              a number; `what` names it in errors
 //   Model(camera), Name(text)        a camera's model, the name of an image
 //   Observed(id)                     the id of a point or none
-//   Fixed(list, what)                numbers whose count is known
+//   Fixed(list, what)                a known number of values
 //   List(list, bytes, each)          records to the end of a line, or after their count, which take at
 //                                    least so many bytes each; each(record) visits one
 //   NextLine()                       where text goes on in another line

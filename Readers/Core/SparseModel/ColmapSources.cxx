@@ -97,8 +97,8 @@ void ColmapTextSource::EndRecord()
 {
   if (!this->IsAhead && !this->Source.AtLineEnd())
   {
-    this->Fail(
-      "here is more than belongs there: '" + std::string(this->Source.Ahead().substr(0, 40)) + "'");
+    this->Fail("unexpected text after the last field: '" +
+      std::string(this->Source.Ahead().substr(0, 40)) + "'");
   }
 }
 

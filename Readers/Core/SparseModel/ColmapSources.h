@@ -14,7 +14,7 @@
 namespace freespace
 {
 
-// The archives of ColmapRecords.h that read. Beside what stands there they have Records(list, bytes, each)
+// The archives of ColmapRecords.h that read. In addition they have Records(list, bytes, each)
 // for all records of a file, EndRecord() where one ends, and Fail(fault).
 
 /// Reads little-endian values off a whole file and never past its end.
@@ -87,8 +87,8 @@ private:
   std::size_t Position = 0;
 };
 
-/// Reads text by lines. After the line of an image one with its observations follows, which people who write
-/// a model by hand leave out where it is empty.
+/// Reads text by lines. The line of an image is followed by one with its observations, which is missing in some
+/// hand-written models if it is empty.
 class ColmapTextSource
 {
 public:

@@ -22,15 +22,15 @@ struct CenteredPose
 SparseCamera PerspectiveCamera(
   double fx, double fy, double cx, double cy, std::vector<double> distortion);
 
-/// Makes a model of what a file of another program holds: cameras, images, points, in this order. Ids are
+/// Builds a model from the content of another program's file: cameras, images, points, in this order. Ids are
 /// counted from 1. Throws Error naming the file and the fault where one of them cannot be used.
 class ModelBuilder
 {
 public:
-  /// `folder` is where the names of images are relative to.
+  /// `folder`: the folder that names of images are relative to.
   ModelBuilder(std::string file, const std::string& folder);
 
-  /// A camera without an id, which is returned: that of an earlier one if there is the same.
+  /// Adds a camera and returns its id, that of an identical earlier one if there is one.
   std::uint32_t AddCamera(SparseCamera camera);
 
   /// An image by the rotation from world to camera, which may be off by rounding, and its centre.

@@ -14,10 +14,10 @@ struct SparseViewOptions
 {
   int minimumTrackLength = 2; ///< images that must see a point
   double maximumError = 4.0;  ///< between an observation and the projection of its point, pixels
-  /// The greatest angle between two rays to a point must be so large, degrees, or as large as that of
-  /// half of the points: what is left where all baselines are short is the better half.
+  /// Minimum triangulation angle (the largest between two rays to the point), degrees, or the median
+  /// over the points if that is less: where all baselines are short, the better half is kept.
   double minimumAngle = 5.0;
-  int minimumFeatures = 10; ///< images with fewer inside of the picture are left out
+  int minimumFeatures = 10; ///< images with fewer inside the frame are left out
 
   /// Throws Error when a field is out of its range.
   void Check() const;

@@ -26,7 +26,7 @@ int FindImage(
   return static_cast<int>(found - images.begin());
 }
 
-// The disparities that the options ask for and that some triplet of the cluster can see.
+// The range of disparities that the options allow and that some triplet of the cluster sees.
 DisparityRange SearchRange(
   const std::vector<CalibratedImage>& images, const Cluster& cluster, const MatcherOptions& options)
 {
@@ -48,7 +48,7 @@ DisparityRange SearchRange(
   return all;
 }
 
-// Every n-th piece of the chains, so that about so many tokens are left from all over the image.
+// Every n-th piece of the chains, so that about this many tokens remain, spread over the image.
 EdgeChains SomePieces(const EdgeChains& all, std::size_t mostTokens)
 {
   constexpr int piece = 24; // tokens: long enough to be matched by themselves

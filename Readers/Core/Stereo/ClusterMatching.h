@@ -12,7 +12,7 @@
 namespace freespace
 {
 
-/// The edges of a cluster's images, and which of them are the same.
+/// The edges of a cluster's images and their matches.
 struct ClusterMatches
 {
   int referenceImage = 0;       ///< index of the image
@@ -26,7 +26,7 @@ struct ClusterMatches
 /// Matches the edges of a cluster's images over all its triplets together. An infinite greatest
 /// disparity is replaced by the greatest that the cameras of a triplet see in common.
 ///
-/// Of the reference's chains, pieces are matched that have about `mostTokens` together, evenly taken.
+/// Pieces of the reference's chains with about `mostTokens` tokens in all, evenly chosen, are matched.
 ///
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
 /// than its camera's, an unknown image, a triplet without overlap. Throws Aborted when the flag is

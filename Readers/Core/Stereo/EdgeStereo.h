@@ -15,14 +15,14 @@
 namespace freespace
 {
 
-/// A cluster shows fewer than three features, which make no disparity map.
+/// A cluster has fewer than three features, too few for a disparity map.
 class TooFewFeatures : public Error
 {
 public:
   using Error::Error;
 };
 
-/// How a cluster's features are found.
+/// Options of the feature detection of a cluster.
 struct EdgeStereoOptions
 {
   EdgeTokenOptions edges;

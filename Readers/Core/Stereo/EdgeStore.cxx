@@ -14,8 +14,8 @@ namespace freespace
 namespace
 {
 
-// Moves the tokens to where a camera without distortion would see them. Tangents turn with them. What such
-// a camera does not see, at the rim of a fisheye lens's image, goes.
+// Moves the tokens to where a camera without distortion would see them. Tangents turn with them. Tokens
+// outside its field of view, at the rim of a fisheye image, are dropped.
 EdgeChains Undistort(const CalibratedImage& image, EdgeChains edges, int minimumLength)
 {
   if (image.IsPinhole() || edges.tokens.empty())

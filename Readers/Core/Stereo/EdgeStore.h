@@ -12,13 +12,13 @@
 namespace freespace
 {
 
-/// The edges of a scene's photographs outside of their masks, freed of the lens's distortion. An image
-/// takes part in several clusters, and in the refinement of the cameras: its edges are found once and kept,
-/// as far as memory allows. Several threads may ask at the same time.
+/// The edges of a scene's images outside of their masks, freed of the lens's distortion. An image
+/// belongs to several clusters and to the refinement of the cameras: its edges are found once and kept, as
+/// far as memory allows. Thread-safe.
 class EdgeStore
 {
 public:
-  /// Keeps what was asked for last while the edges take up to `mostTokens` tokens (of 72 bytes).
+  /// Keeps the most recently used edges, up to `mostTokens` tokens (of 72 bytes).
   EdgeStore(const Scene& scene, const EdgeTokenOptions& options,
     std::size_t mostTokens = std::size_t(1) << 24);
 

@@ -11,14 +11,14 @@
 namespace freespace
 {
 
-/// Least, middle and greatest of some numbers; all 0 without any.
+/// Minimum, median and maximum of some numbers; all 0 if there are none.
 struct Spread
 {
   std::size_t count = 0;
   double least = 0, median = 0, greatest = 0;
 };
 
-/// Of those that are finite.
+/// Of the finite ones.
 Spread SpreadOf(std::vector<double> values);
 
 /// What a structure-from-motion model holds.

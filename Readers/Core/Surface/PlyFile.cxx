@@ -174,7 +174,7 @@ private:
     this->Elements.back().properties.push_back(property);
   }
 
-  // What is left must be able to hold all elements, before memory is taken for them.
+  // The rest of the file must be long enough for all elements before memory is allocated for them.
   void CheckLength(const Element& element) const
   {
     std::size_t least = 0;

@@ -28,7 +28,7 @@ struct PointHash
   }
 };
 
-/// Gathers triangles, and makes equal corners one point.
+/// Collects triangles and merges equal corners.
 class Corners
 {
 public:

@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// The polygons of a surface as they stand in a file.
+/// The polygons of a surface as stored in a file.
 struct SurfaceFile
 {
   bool isDouble = false; ///< whether the file has more than single precision
@@ -25,9 +25,9 @@ struct SurfaceFile
   void EndPolygon(const std::string& file);
 };
 
-/// Each reads a file and throws Error naming it where it is missing, truncated or not of its format. Nothing
-/// is taken for granted that a file says of itself: sizes are held against its length and indices against
-/// the number of points, and memory is a small multiple of the file's length. Numbers do not depend on the
+/// Each reads a file and throws Error naming it where it is missing, truncated or not of its format. A file
+/// is not trusted: sizes are checked against its length and indices against the number of points, and the
+/// memory is a small multiple of the file's length. Numbers do not depend on the
 /// locale.
 SurfaceFile ReadPLY(const std::string& file);
 SurfaceFile ReadOBJ(const std::string& file);
@@ -35,7 +35,7 @@ SurfaceFile ReadOBJ(const std::string& file);
 /// Equal corners become one point.
 SurfaceFile ReadSTL(const std::string& file);
 
-/// The same from a file's content, which a name stands for in errors.
+/// The same from a file's content; the name is used in error messages.
 SurfaceFile ParsePLY(const std::string& content, const std::string& file);
 SurfaceFile ParseOBJ(const std::string& content, const std::string& file);
 SurfaceFile ParseSTL(const std::string& content, const std::string& file);

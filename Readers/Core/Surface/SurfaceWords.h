@@ -12,7 +12,7 @@
 namespace freespace
 {
 
-/// The words of a surface's text, which blanks and line ends part.
+/// The words of a surface file in text form, separated by blanks and line ends.
 class SurfaceWords
 {
 public:

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 namespace
 {
 
-// Where a byte (counted from one) of a text is, for people.
+// Line and column of a byte, counted from one, of a text.
 std::string PlaceOfByte(const std::string& text, std::size_t byte)
 {
   const std::string before = text.substr(0, byte > 0 ? byte - 1 : 0);
@@ -28,7 +28,7 @@ std::string PlaceOfByte(const std::string& text, std::size_t byte)
     ", column " + std::to_string(column + 1);
 }
 
-// The way from one value down to another; nothing where it is not there. What is read is not deep.
+// The path from one value down to another; empty if it is not below. The documents are not deep.
 std::optional<std::string> WayTo(const Json& sought, const Json& from, int levels)
 {
   if (&from == &sought)
@@ -89,7 +89,7 @@ void JsonNode::ExpectObject(const std::vector<std::string>& known) const
 {
   if (!this->Value->is_object())
   {
-    this->Fail("here should stand an object in braces");
+    this->Fail("expected a JSON object");
   }
   for (const auto& item : this->Value->items())
   {
@@ -113,7 +113,7 @@ std::vector<JsonNode> JsonNode::Elements() const
 {
   if (!this->Value->is_array())
   {
-    this->Fail("here should stand a list in brackets");
+    this->Fail("expected a JSON array");
   }
   std::vector<JsonNode> elements;
   elements.reserve(this->Value->size());
@@ -128,7 +128,7 @@ std::string JsonNode::Text() const
 {
   if (!this->Value->is_string() || this->Value->get_ref<const std::string&>().empty())
   {
-    this->Fail("here should stand a text in quotes that is not empty");
+    this->Fail("expected a non-empty string");
   }
   return NameFromUtf8(this->Value->get<std::string>());
 }
@@ -137,7 +137,7 @@ double JsonNode::Number() const
 {
   if (!this->Value->is_number())
   {
-    this->Fail("here should stand a number");
+    this->Fail("expected a number");
   }
   return this->Value->get<double>();
 }
@@ -147,7 +147,7 @@ int JsonNode::Integer() const
   const double number = this->Number();
   if (number != std::floor(number) || std::abs(number) > 1e9)
   {
-    this->Fail("here should stand a whole number");
+    this->Fail("expected an integer");
   }
   return static_cast<int>(number);
 }
@@ -174,7 +174,7 @@ double JsonNode::NumberOrText() const
   const auto number = ParseNumber<double>(this->Value->get_ref<const std::string&>());
   if (!number)
   {
-    this->Fail("here should stand a number");
+    this->Fail("expected a number");
   }
   return *number;
 }
@@ -192,7 +192,7 @@ std::uint64_t JsonNode::Id() const
   }
   if (!id)
   {
-    this->Fail("here should stand a whole number that is not negative");
+    this->Fail("expected a non-negative integer");
   }
   return *id;
 }
@@ -218,8 +218,8 @@ std::vector<double> JsonNode::Numbers(std::size_t count) const
   this->Gather(numbers, 2);
   if (numbers.size() != count)
   {
-    this->Fail("here should stand " + std::to_string(count) + " numbers, not " +
-      std::to_string(numbers.size()));
+    this->Fail(
+      "expected " + std::to_string(count) + " numbers, not " + std::to_string(numbers.size()));
   }
   return numbers;
 }

@@ -24,7 +24,7 @@ public:
 
   [[noreturn]] void Fail(const std::string& fault) const;
 
-  /// An object that has no other keys than these.
+  /// Checks that the object has no other keys than these.
   void ExpectObject(const std::vector<std::string>& known) const;
 
   bool Has(const std::string& key) const { return this->Value->contains(key); }
@@ -33,21 +33,21 @@ public:
   bool IsText() const { return this->Value->is_string(); }
   bool IsFilled() const { return !this->IsText() || *this->Value != ""; }
 
-  /// A text that is not empty, in the encoding of file names.
+  /// A non-empty string, in the encoding of file names.
   std::string Text() const;
   double Number() const;
   int Integer() const;
 
-  /// true or false, which some programs write as a number or in quotes.
+  /// A boolean, which some programs write as a number or in quotes.
   bool Truth() const;
 
   /// A number that some programs write in quotes.
   double NumberOrText() const;
 
-  /// An id: a whole number from 0 to 2^64 - 1, which may stand in quotes.
+  /// An id: an integer from 0 to 2^64 - 1, which may be in quotes.
   std::uint64_t Id() const;
 
-  /// So many numbers, of a list or of lists one after the other, which may stand in quotes.
+  /// This many numbers from an array or nested arrays; each may be in quotes.
   std::vector<double> Numbers(std::size_t count) const;
 
 private:
@@ -65,7 +65,7 @@ public:
 
   JsonNode Root() const { return { this->Value, *this }; }
 
-  /// Where a value stands, for people.
+  /// The position of a value, for messages.
   std::string PlaceOf(const nlohmann::json& value) const;
 
 private:

@@ -17,8 +17,8 @@ namespace freespace
 namespace
 {
 
-// Whether a first row names the columns: it has a letter and does not begin like a number, such as
-// "1e3,0,0" or "1;2;3e5".
+// Whether the first row is a header: it has a letter and does not begin like a number, as "1e3,0,0" or
+// "1;2;3e5" do.
 bool IsHeading(const std::string& line)
 {
   const std::size_t begin = std::min(line.find_first_not_of(" \t+"), line.size());
@@ -28,7 +28,7 @@ bool IsHeading(const std::string& line)
     std::any_of(line.begin(), line.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
 }
 
-// The numbers of a row; nothing when it has anything else.
+// The numbers of a row; nothing if it contains anything else.
 std::vector<double> ReadRow(std::string line)
 {
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -46,7 +46,7 @@ std::vector<double> ReadRow(std::string line)
   return values;
 }
 
-// The next line. Throws Error where it is too long for numbers, as the one of /dev/zero, which does not end.
+// The next line. Throws Error if it is too long for numbers: /dev/zero is a line without an end.
 bool NextLine(std::istream& file, const std::string& fileName, std::string& line)
 {
   constexpr std::size_t longest = 1 << 16;
@@ -60,7 +60,7 @@ bool NextLine(std::istream& file, const std::string& fileName, std::string& line
     line += static_cast<char>(c);
     if (line.size() > longest)
     {
-      throw Error("'" + fileName + "' is no table of numbers: one of its lines is too long.");
+      throw Error("'" + fileName + "' is not a table of numbers: one of its lines is too long.");
     }
   }
   return true;

@@ -11,9 +11,9 @@
 namespace freespace
 {
 
-/// The numbers of a table, row by row: rows of so many numbers, parted by commas or blanks, perhaps below a
-/// heading; empty lines and a byte order mark are passed over. `beforeLine` may throw to stop. Throws Error that
-/// names the file and the line where that has anything else, and where there is no line.
+/// The numbers of a table, row by row. Each row has a fixed number of values, separated by commas or blanks;
+/// a header line, empty lines and a byte order mark are skipped. `beforeLine` may throw to stop. Throws Error
+/// naming the file and the line if a row has anything else, and if the file has no line.
 std::vector<double> ReadNumberTable(std::istream& file, const std::string& fileName,
   std::size_t columns, const std::function<void()>& beforeLine);
 

@@ -14,12 +14,12 @@ namespace freespace
 /// The content of a file. Throws Error naming it when it cannot be read.
 std::string ReadWholeFile(const std::string& file);
 
-/// At most so many bytes from the begin of a file, by which its kind is known; empty where it cannot be read.
+/// The first bytes of a file, at most this many, which determine its format; empty if it cannot be read.
 std::string BeginOfFile(const std::string& file, std::size_t most);
 
 /// Reads a text file by lines and the fields of a line, which are separated by blanks. A byte order mark of
-/// UTF-8 at its beginning is skipped. Throws Error
-/// naming the file, the line and the fault when the text is not as requested.
+/// UTF-8 at its beginning is skipped. Throws Error naming the file, the line and the fault if the text is
+/// not as requested.
 class TextSource
 {
 public:
@@ -41,13 +41,13 @@ public:
 
   bool AtLineEnd() const { return this->Rest.empty(); }
 
-  /// The next field; `what` tells in an error what it should have been.
+  /// The next field; `what` describes it in error messages.
   std::string_view Field(const char* what);
 
-  /// All that is left of the line.
+  /// The rest of the line.
   std::string_view Remainder(const char* what);
 
-  /// What is left of the line, which stays to be read.
+  /// The rest of the line, without reading it.
   std::string_view Ahead() const { return this->Rest; }
 
   /// The next field as a number.

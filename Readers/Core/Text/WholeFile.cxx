@@ -18,10 +18,10 @@ namespace freespace
 namespace
 {
 
-// Some cameras and phones pad a scan's end with a few bytes, which harm nothing.
+// Some cameras and phones pad the end of a scan with a few harmless bytes.
 constexpr int mostPadding = 64;
 
-/// What libjpeg tells of a file while it decodes it.
+/// Collects what libjpeg reports while it decodes a file.
 struct Decoder
 {
   jpeg_error_mgr errors; // the first member: libjpeg knows of no other

@@ -10,8 +10,8 @@ namespace freespace
 /// Checks that a file is complete, i.e. not truncated. Throws Error naming the file when it is missing or
 /// truncated.
 
-/// A JPEG file is decoded: decoders go on where its data are damaged, and invent the pixels after. A few
-/// bytes of padding are no damage. Other formats pass.
+/// A JPEG file is decoded, because decoders continue after damaged data and make up the following pixels. A
+/// few bytes of padding are accepted. Other formats are not checked.
 void CheckWholeJPEG(const std::string& fileName);
 
 }

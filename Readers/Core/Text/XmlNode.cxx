@@ -17,8 +17,8 @@ namespace freespace
 namespace
 {
 
-// What is open while the file is read, the innermost last. Elements are complete before they become
-// children, so that nothing that is pointed to moves.
+// The open elements while the file is read, the innermost last. Elements are complete before they become
+// children, so that pointers to them stay valid.
 struct Reading
 {
   XML_Parser parser;
@@ -70,7 +70,7 @@ void Characters(void* user, const XML_Char* text, int length)
   static_cast<Reading*>(user)->open.back().text.append(text, static_cast<std::size_t>(length));
 }
 
-// Entities could make much of little.
+// Entities could expand a small file without bound.
 void BeginDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int)
 {
   static_cast<Reading*>(user)->Stop("it has a document type, which is not supported");

@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// An element of an XML file with all that is in it. Errors (Error) name the file and the element's line.
+/// An element of an XML file with its content. Errors (Error) name the file and the element's line.
 struct XmlNode
 {
   std::string file;

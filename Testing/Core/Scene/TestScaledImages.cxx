@@ -66,8 +66,7 @@ TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)
   photographs.Add("image0.jpg", 400, 300);
   photographs.Add("image1.jpg", 800, 600);
   const std::string told = ScaleToPhotographs(photographs.Scene, model);
-  EXPECT_EQ(
-    told, "1 of 3 photographs have another size than their cameras, which are scaled by 0.5");
+  EXPECT_EQ(told, "1 of 3 images have another size than their cameras, which are scaled by 0.5");
   const auto before = CalibratedImages(given), after = CalibratedImages(model);
   EXPECT_EQ(after[0].camera.width, 400);
   EXPECT_EQ(after[0].camera.height, 300);
