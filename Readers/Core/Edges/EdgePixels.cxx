@@ -76,7 +76,7 @@ public:
     this->Work.resize(this->Width + 2 * this->Radius);
   }
 
-  // Row after row, from the first one on. Beyond the border, the image goes on as it ends.
+  // Row after row, from the first one on. Beyond the border, the last pixels are repeated.
   void Compute(int row, float* smooth)
   {
     for (int k = -this->Radius; k <= this->Radius; ++k)
@@ -166,7 +166,7 @@ struct PeakRow
 // Radius, in pixels, of the search for the neighbours of a point.
 constexpr int LinkRadius = 2;
 
-// The points' pixels of the last rows, and their numbers. A frame around the image has no points,
+// The points' pixels of the last rows, and their numbers. A margin around the image has no points,
 // so that nobody looks over its border.
 class PointIndex
 {

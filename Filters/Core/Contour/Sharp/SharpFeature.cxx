@@ -15,14 +15,13 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// A normal that leaves the plane of the two most different ones by so much (the sine) makes an edge
-/// a corner.
+/// Minimum sine of the angle between a normal and the plane of the two most different ones at a corner.
 constexpr double CornerSine = 0.5;
 
-/// Normals that differ by more are of different surfaces: 53 degrees.
+/// Normals that differ by more, 53 degrees, belong to different surfaces.
 constexpr double SameSurfaceCosine = 0.6;
 
-// The directions along which only one of the normals' planes is left at a time, by a unit.
+// The dual basis of the normals: along each direction only one plane is left, by a unit.
 Eigen::Matrix3Xd DualBasis(const std::vector<Vector3d>& normals)
 {
   Eigen::Matrix3Xd matrix(3, normals.size());
@@ -141,7 +140,7 @@ bool FindSharpFeature(
   {
     feature.normals.push_back(third->normal);
   }
-  // Least squares about the middle, in as many directions as the planes fix.
+  // Least squares about the mean, in the directions that the planes constrain.
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
   Vector3d right = Vector3d::Zero();
   for (const SurfacePlane& plane : planes)

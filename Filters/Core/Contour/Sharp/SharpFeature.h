@@ -27,17 +27,17 @@ struct SharpFeature
 
   bool IsCorner() const { return this->normals.size() == 3; }
 
-  /// A direction from the position that is above all planes by as much, unit length; zero where there is
-  /// none.
+  /// The direction from the position that is at the same distance above all planes, unit length; zero if
+  /// there is none.
   Eigen::Vector3d Up() const;
 
-  /// Moves the position along the edge to the nearest place in a box. False: there is none, and the
-  /// position is as it was.
+  /// Moves the position along the edge to the nearest position in a box. False if there is none; the
+  /// position is then unchanged.
   bool SlideInto(const Eigen::AlignedBox3d& box);
 
   /// Whether the surface has the feature within a reach of the position: of the four (eight at a
-  /// corner) places that the planes part there, the one above all of them is free, the one below
-  /// all is matter, and each plane makes a difference somewhere.
+  /// corner) sectors between the planes, the one above all of them is free, the one below all is matter,
+  /// and each plane separates free space from matter somewhere.
   bool IsConfirmed(
     double reach, const std::function<bool(const Eigen::Vector3d& point)>& isFree) const;
 };
@@ -48,8 +48,8 @@ struct SharpFeature
 bool FindSharpFeature(
   const std::vector<SurfacePlane>& planes, double sharpCosine, SharpFeature& feature);
 
-/// The same as a place in a box: an edge or corner that lies outside, which is where the surface turns
-/// in a cell that no lattice edge tells of, is moved to the nearest place in the box.
+/// The same within a box: an edge or corner that lies outside, because the surface turns in a cell
+/// without a crossing there, is moved to the nearest position in the box.
 bool FindSharpFeature(const std::vector<SurfacePlane>& planes, double sharpCosine,
   const Eigen::AlignedBox3d& box, Eigen::Vector3d& position);
 
@@ -58,18 +58,18 @@ bool FindCornerOnEdge(
   const SharpFeature& edge, const SurfacePlane& plane, double sharpCosine, SharpFeature& corner);
 
 /// Moves a point along a direction out of the matter to the surface: up when it is in matter, otherwise
-/// down. Looks in steps of a sixteenth of the box. False: the surface is not met within the box, and the
-/// point is where it was.
+/// down. Searches in steps of a sixteenth of the box. False if the surface is not in the box; the point
+/// is then unchanged.
 bool MoveToBoundary(Eigen::Vector3d& point, const Eigen::Vector3d& up,
   const Eigen::AlignedBox3d& box, const std::function<bool(const Eigen::Vector3d& point)>& isFree);
 
 /// Whether some two normals differ by more than the angle.
 bool NormalsDiffer(const std::vector<SurfacePlane>& planes, double cosine);
 
-/// Makes normals agree with those around, the planes' own among them, that differ little: a surface
-/// that is rough at a scale below the cells', as that of many noisy views is, has no edges there.
+/// Smooths normals over their neighbours with similar normals: a surface with roughness finer than the
+/// cells, such as that of many noisy views, has no sharp edges there.
 /// Normals on the two sides of a sharp edge do not mix. Weights fall as a Gaussian whose sigma is the
-/// radius; normals that are not known stay so.
+/// radius; unknown normals stay unknown.
 void SmoothNormals(
   std::vector<SurfacePlane>& planes, const std::vector<SurfacePlane>& around, double radius);
 

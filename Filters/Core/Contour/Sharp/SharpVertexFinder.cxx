@@ -47,7 +47,7 @@ private:
   static Vector3d Clamp(const Vector3d& point, const AlignedBox3d& box);
   static Vector3d MiddleOf(const std::vector<SurfacePlane>& planes);
 
-  /// Radius of the smoothing of normals before sharp edges are looked for, in cells.
+  /// Radius of the smoothing of normals before sharp edges are detected, in cells.
   static constexpr double SmoothingRadius = 1.5;
 
   const BoundedField& Field;

@@ -33,7 +33,7 @@ public:
   void FindFaceLinks(const Progress& progress, const ParallelFor& parallelFor);
 
 private:
-  /// Triangles that the mesh may have near some choices: it has those whose conditions hold.
+  /// Triangles that the mesh may have near some choices; each exists if its conditions hold.
   struct Candidates
   {
     static constexpr int Always = -1;
@@ -48,7 +48,7 @@ private:
     std::unordered_map<std::uint64_t, std::int32_t> ids;
   };
 
-  /// A possible position of a sharp vertex.
+  /// A candidate position of a sharp vertex.
   struct MaybeVertex
   {
     BlockVertex vertex;
