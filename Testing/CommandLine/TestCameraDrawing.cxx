@@ -65,7 +65,8 @@ TEST(CameraDrawing, StaysInItsFrame)
   std::smatch box;
   ASSERT_TRUE(std::regex_search(svg, box, std::regex("viewBox=\"0 0 ([0-9]+) ([0-9]+)\"")));
   const std::vector<Eigen::Vector2d> points = Coordinates(svg);
-  ASSERT_GT(points.size(), 20u);
+  ASSERT_EQ(points.size(), 2u * (4 + 4 * 2) + 2)
+    << "the base and four sides of each camera, and the points";
   for (const Eigen::Vector2d& point : points)
   {
     EXPECT_GE(point.minCoeff(), 0);

@@ -2,6 +2,9 @@
 #include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
 
+#include "Contour/BisectionContour.h"
+#include "Freespace/FreespaceUnion.h"
+#include "Support/ContourFields.h"
 #include "Support/ErrorObserver.h"
 #include "Support/ProgressWatch.h"
 #include "Support/RandomMapBlocks.h"
@@ -20,9 +23,22 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 using namespace freespace;
+
+namespace
+{
+
+// A closed surface of triangles without handles: Euler's formula.
+void ExpectSphere(vtkPolyData* surface)
+{
+  ASSERT_GT(surface->GetNumberOfPoints(), 0);
+  EXPECT_EQ(surface->GetNumberOfPolys(), 2 * surface->GetNumberOfPoints() - 4);
+}
+
+}
 
 TEST(vtkBisectionContourFilter, ContoursAUnion)
 {
@@ -35,9 +51,24 @@ TEST(vtkBisectionContourFilter, ContoursAUnion)
   contour->SetCells(40);
   contour->Update();
   vtkPolyData* output = contour->GetOutput();
-  ASSERT_GT(output->GetNumberOfCells(), 1000);
-  ASSERT_TRUE(output->GetCellData()->GetArray("View"));
-  ASSERT_TRUE(output->GetCellData()->GetArray("Kind"));
+  // The core's mesh of the same maps, point by point.
+  const FreespaceUnion core(RandomMaps(3, 3), Plain(FreespaceUnionOptions()));
+  const ContourMesh mesh = BisectionContour(core, core.Hull().Bounds(), Cells(40));
+  ASSERT_EQ(output->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.points.size()));
+  ASSERT_EQ(output->GetNumberOfCells(), static_cast<vtkIdType>(mesh.triangles.size()));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Eigen::Vector3d point(output->GetPoint(static_cast<vtkIdType>(i)));
+    EXPECT_LT((point - mesh.points[i]).norm(), 1e-6);
+  }
+  vtkDataArray* views = output->GetCellData()->GetArray("View");
+  vtkDataArray* kinds = output->GetCellData()->GetArray("Kind");
+  ASSERT_TRUE(views && kinds);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    EXPECT_EQ(views->GetTuple1(static_cast<vtkIdType>(t)), mesh.view[t]);
+    EXPECT_EQ(kinds->GetTuple1(static_cast<vtkIdType>(t)), static_cast<int>(mesh.kind[t]));
+  }
   // The sign changes around the vertices, but for some at sharp edges.
   double bounds[6];
   phi->GetBounds(bounds);
@@ -118,7 +149,7 @@ TEST(vtkBisectionContourFilter, StopsAtOnce)
   contour->SetBounds(-1, 1, -1, 1, -1, 1);
   contour->SetCells(100);
   contour->Update();
-  EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 1000);
+  ExpectSphere(contour->GetOutput());
   const int all = sphere->Calls;
 
   for (const double when : { 0.01, 0.4 })
@@ -160,6 +191,9 @@ TEST(vtkBisectionContourFilter, ProgressesSmoothly)
 TEST(vtkBisectionContourFilter, StopsWhileTheUnionIsBuilt)
 {
   const vtkSmartPointer<vtkMultiBlockDataSet> maps = MakeMaps(3, 20);
+  const FreespaceUnion core(RandomMaps(3, 20), Plain(FreespaceUnionOptions()));
+  const auto whole = static_cast<vtkIdType>(
+    BisectionContour(core, core.Hull().Bounds(), Cells(20)).triangles.size());
   for (int at = 1; at <= 4; ++at)
   {
     vtkNew<vtkFreespaceUnion> phi;
@@ -188,7 +222,7 @@ TEST(vtkBisectionContourFilter, StopsWhileTheUnionIsBuilt)
     EXPECT_EQ(errors->Count, 0);
     contour->Modified();
     contour->Update();
-    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 100);
+    EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), whole) << "as if it had not been stopped";
   }
 }
 
@@ -202,7 +236,7 @@ TEST(vtkBisectionContourFilter, ContoursAnyFunction)
   contour->SetBounds(-3, 3, -3, 3, -3, 3);
   contour->SetCells(30);
   contour->Update();
-  ASSERT_GT(contour->GetOutput()->GetNumberOfPoints(), 500);
+  ExpectSphere(contour->GetOutput());
   for (vtkIdType i = 0; i < contour->GetOutput()->GetNumberOfPoints(); ++i)
   {
     double p[3];
@@ -231,8 +265,18 @@ TEST(vtkBisectionContourFilter, ATransformedUnionMovesItsSurface)
   contour->SetCells(30);
   contour->SetBounds(b[0] + 5, b[1] + 5, b[2], b[3], b[4], b[5]);
   contour->Update();
-  ASSERT_GT(contour->GetOutput()->GetNumberOfCells(), 500);
-  EXPECT_NEAR(contour->GetOutput()->GetBounds()[0], b[0] + 5, 0.02 * (b[1] - b[0]));
+  vtkPolyData* moved = contour->GetOutput();
+  // The mesh of the union itself, but for points of the lattice that round to the other side.
+  const FreespaceUnion core(RandomMaps(3, 3), Plain(FreespaceUnionOptions()));
+  const ContourMesh mesh = BisectionContour(core, core.Hull().Bounds(), Cells(30));
+  const double triangles = static_cast<double>(mesh.triangles.size());
+  EXPECT_NEAR(static_cast<double>(moved->GetNumberOfCells()) / triangles, 1, 0.02);
+  double low = HUGE_VAL;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    low = std::min(low, point.x());
+  }
+  EXPECT_NEAR(moved->GetBounds()[0], low + 5, 0.002 * (b[1] - b[0]));
 }
 
 TEST(vtkBisectionContourFilter, TellsWhatIsWrong)

@@ -164,7 +164,15 @@ TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)
   filter->Update();
   std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
   EXPECT_TRUE(holdsOutlier(maps[0]));
-  const std::size_t triangles = maps[3].triangles.size();
+  // Of the triangles those of which no edge is longer than 40 pixels.
+  const auto small = std::count_if(maps[3].triangles.begin(), maps[3].triangles.end(),
+    [&map = maps[3]](const std::array<int, 3>& t)
+    {
+      const auto edge = [&](int a, int b)
+      { return (map.imagePoints[t[a]] - map.imagePoints[t[b]]).norm(); };
+      return std::max({ edge(0, 1), edge(1, 2), edge(2, 0) }) <= 40;
+    });
+  const auto all = static_cast<std::ptrdiff_t>(maps[3].triangles.size());
 
   filter->SetSupportingNeighbors(2);
   filter->Update();
@@ -176,8 +184,9 @@ TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)
   filter->SetLongestEdge(40);
   filter->Update();
   maps = MapsFromBlocks(filter->GetOutput());
-  EXPECT_LT(maps[3].triangles.size(), triangles);
-  EXPECT_GT(maps[3].triangles.size(), 0u);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(maps[3].triangles.size()), small);
+  EXPECT_LT(small, all);
+  EXPECT_GT(small, 0);
 }
 
 TEST(DelaunayDisparityFilter, SettingOutOfRangeIsAnError)

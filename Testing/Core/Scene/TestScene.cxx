@@ -180,9 +180,9 @@ TEST(Scene, MissingAndIllTypedKeys)
 {
   ExpectError(R"({ "images": "a" })", { "'model'", "missing" });
   ExpectError(R"({ "model": "a" })", { "'images'", "missing" });
-  ExpectError(R"({ "images": 1, "model": "b" })", { "'images'", "text" });
-  ExpectError(R"({ "images": "a", "model": "" })", { "'model'", "text" });
-  ExpectError(WithClusters("1"), { "'clusters'", "list" });
+  ExpectError(R"({ "images": 1, "model": "b" })", { "'images'", "expected a non-empty string" });
+  ExpectError(R"({ "images": "a", "model": "" })", { "'model'", "expected a non-empty string" });
+  ExpectError(WithClusters("1"), { "'clusters'", "expected a JSON array" });
   ExpectError(WithClusters("[1]"), { "'clusters'[0]", "object" });
   ExpectError(WithClusters("[]"), { "'clusters'", "empty" });
 }
@@ -211,7 +211,7 @@ TEST(Scene, ImpossibleBoards)
     return WithBoard(text.replace(text.find(from), from.size(), to));
   };
   ExpectError(changed("15, 14", "15"), { "'squares'", "two numbers" });
-  ExpectError(changed("15, 14", "15, 1.5"), { "'squares'[1]", "whole number" });
+  ExpectError(changed("15, 14", "15, 1.5"), { "'squares'[1]", "expected an integer" });
   ExpectError(changed("15, 14", "15, -1"), { "'board'", "columns and rows" });
   ExpectError(changed("0.03", "0"), { "'board'", "positive" });
   ExpectError(changed("0.0225", "0.04"), { "'board'", "markers" });

@@ -343,7 +343,7 @@ TEST(ColmapModel, MoreThanTheCountsSay)
   TemporaryFolder folder;
   WriteBinaryModel(folder);
   folder.Write("images.bin", BinaryImages() + "x");
-  ExpectError(folder, { "images.bin", "more" });
+  ExpectError(folder, { "images.bin", "unexpected text" });
 }
 
 // Any byte may be any value: that may go unnoticed or be an error, but must not crash or allocate

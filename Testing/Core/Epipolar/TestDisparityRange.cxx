@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Epipolar/DisparityRange.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace freespace;
+
+namespace
+{
+
+// Looks along +z from (x, 0, 0); 640 x 480 pixels of focal length 500.
+Camera At(double x)
+{
+  Camera camera;
+  camera.K << 500, 0, 320, 0, 500, 240, 0, 0, 1;
+  camera.width = 640;
+  camera.height = 480;
+  camera.t = Eigen::Vector3d(-x, 0, 0);
+  return camera;
+}
+
+Camera RandomCamera(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Camera camera = At(0);
+  camera.R = Eigen::AngleAxisd(
+    0.4 * unit(random), Eigen::Vector3d(unit(random), unit(random), unit(random)).normalized())
+               .toRotationMatrix();
+  camera.t = Eigen::Vector3d(unit(random), unit(random), unit(random));
+  return camera;
+}
+
+bool IsSeen(const Camera& camera, const Eigen::Vector3d& point)
+{
+  return camera.Depth(point) > 0 && camera.Sees(camera.Project(point));
+}
+
+}
+
+// The pixel moves to the left by 500 * baseline * disparity, until it leaves the image.
+TEST(VisibleRange, OfParallelCameras)
+{
+  const DisparityRange within{ 0, 10 };
+  const DisparityRange range = VisibleRange(At(0), { 400, 100 }, At(0.5), within);
+  EXPECT_NEAR(range.minimum, 0, 1e-12);
+  EXPECT_NEAR(range.maximum, 400 / 250.0, 1e-9);
+  // The camera on the left: to the right, by 640 - 400 pixels.
+  EXPECT_NEAR(VisibleRange(At(0), { 400, 100 }, At(-0.5), within).maximum, 240 / 250.0, 1e-9);
+  // What is asked for bounds the range.
+  const DisparityRange narrow = VisibleRange(At(0), { 400, 100 }, At(0.5), { 0.25, 0.75 });
+  EXPECT_NEAR(narrow.minimum, 0.25, 1e-12);
+  EXPECT_NEAR(narrow.maximum, 0.75, 1e-12);
+  EXPECT_TRUE(VisibleRange(At(0), { 400, 100 }, At(0.5), { 2, 3 }).Empty());
+}
+
+TEST(VisibleRange, IsWhereThePointIsSeen)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(0, 640), v(0, 480), disparity(0.01, 3);
+  int seen = 0, unseen = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    const Camera reference = RandomCamera(random), other = RandomCamera(random);
+    const Eigen::Vector2d pixel(u(random), v(random));
+    const DisparityRange range = VisibleRange(reference, pixel, other, { 0.01, 3 });
+    for (int sample = 0; sample < 20; ++sample)
+    {
+      const double d = disparity(random);
+      if (std::min(std::abs(d - range.minimum), std::abs(d - range.maximum)) < 1e-9)
+      {
+        continue;
+      }
+      const bool isIn = !range.Empty() && d > range.minimum && d < range.maximum;
+      ASSERT_EQ(isIn, IsSeen(other, reference.Unproject(pixel, 1 / d))) << trial << " at " << d;
+      ++(isIn ? seen : unseen);
+    }
+  }
+  EXPECT_GT(seen, 1000) << "both happen often";
+  EXPECT_GT(unseen, 1000);
+}
+
+// Between the cameras at -1 and 1 a disparity d moves pixels by 500 d to either side: some point is seen by all until
+// the overlap, 640 pixels wide at infinity, is gone at 2 * 500 d = 640. The reference's grid may just miss the end.
+TEST(CommonRange, OfThreeCamerasInARow)
+{
+  const DisparityRange range = CommonRange(At(0), At(-1), At(1), { 0, 10 });
+  EXPECT_NEAR(range.minimum, 0, 1e-12);
+  EXPECT_LE(range.maximum, 0.64 + 1e-9);
+  EXPECT_GT(range.maximum, 0.6);
+}
+
+TEST(CommonRange, WithoutOverlapIsEmpty)
+{
+  Camera away = At(1);
+  away.R = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  EXPECT_TRUE(CommonRange(At(0), At(-1), away, { 0, 10 }).Empty());
+}
