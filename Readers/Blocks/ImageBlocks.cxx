@@ -39,15 +39,16 @@ cv::Mat PixelsOf(vtkImageData* image, const std::string& name)
 {
   int size[3];
   image->GetDimensions(size);
-  const int channels = image->GetPointData()->GetScalars() ? image->GetNumberOfScalarComponents()
-                                                           : 0;
+  const int channels =
+    image->GetPointData()->GetScalars() ? image->GetNumberOfScalarComponents() : 0;
   const int depth = channels > 0 ? DepthOf(image->GetScalarType()) : -1;
   if (depth < 0 || (channels != 1 && channels != 3 && channels != 4) || size[2] != 1)
   {
     throw Error("The image " + name +
       " is not one slice of grey or colour of unsigned char, unsigned short, float or double.");
   }
-  const cv::Mat upsideDown(size[1], size[0], CV_MAKETYPE(depth, channels), image->GetScalarPointer());
+  const cv::Mat upsideDown(
+    size[1], size[0], CV_MAKETYPE(depth, channels), image->GetScalarPointer());
   cv::Mat pixels;
   cv::flip(upsideDown, pixels, 0);
   const int code = channels == 1 ? cv::COLOR_GRAY2BGR

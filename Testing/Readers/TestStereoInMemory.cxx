@@ -49,7 +49,8 @@ void ExpectSameArray(vtkDataArray* a, vtkDataArray* b, const std::string& name)
 void ExpectSameView(vtkPolyData* a, vtkPolyData* b)
 {
   ExpectSameArray(a->GetPoints()->GetData(), b->GetPoints()->GetData(), "Points");
-  ExpectSameArray(a->GetLines()->GetConnectivityArray(), b->GetLines()->GetConnectivityArray(), "Lines");
+  ExpectSameArray(
+    a->GetLines()->GetConnectivityArray(), b->GetLines()->GetConnectivityArray(), "Lines");
   vtkFieldData* fields[2][2] = { { a->GetPointData(), b->GetPointData() },
     { a->GetFieldData(), b->GetFieldData() } };
   for (const auto& [one, other] : fields)
@@ -138,14 +139,16 @@ TEST(StereoInMemory, FaultsOfImagesInMemoryAreNamed)
   photographs->SetFileName(scene.File);
   photographs->Update();
   using Change = std::function<void(vtkEdgeStereoReader*, vtkMultiBlockDataSet*)>;
-  const auto field = [](vtkMultiBlockDataSet* blocks, const char* name)
-  { return vtkDataArray::SafeDownCast(blocks->GetBlock(1)->GetFieldData()->GetAbstractArray(name)); };
+  const auto field = [](vtkMultiBlockDataSet* blocks, const char* name) {
+    return vtkDataArray::SafeDownCast(blocks->GetBlock(1)->GetFieldData()->GetAbstractArray(name));
+  };
   const std::pair<const char*, Change> faults[] = {
     { "two images are called|Two images are called c.png",
       [](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { blocks->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "c.png"); } },
     { "no file name|there is the scene there.json",
-      [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*) { reader->SetFileName("there.json"); } },
+      [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*)
+      { reader->SetFileName("there.json"); } },
     { "a known image|names an image that is not there, x.png",
       [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*)
       { reader->AddTriplet("b", "l.png", "c.png", "x.png"); } },

@@ -71,8 +71,8 @@ void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images)
     {
       if (!images.count(name))
       {
-        throw Error("The cluster " + cluster.name + " names an image that is not there, " + name +
-          ".");
+        throw Error(
+          "The cluster " + cluster.name + " names an image that is not there, " + name + ".");
       }
     }
     if (triplet[1] != cluster.reference)

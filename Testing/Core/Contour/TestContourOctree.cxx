@@ -58,7 +58,7 @@ std::map<LatticeIndex, int> AllCells(const ContourOctree& octree)
         {
           const Eigen::Vector3d point =
             lattice.Point(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
-          matter |= !octree.field.IsFree(point, {}) << corner;
+          matter |= !octree.field.IsFree(point, octree.field.Root()) << corner;
         }
         if (matter != 0 && matter != 255)
         {

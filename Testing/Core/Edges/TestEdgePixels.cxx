@@ -18,8 +18,7 @@ cv::Mat Step(double place, int width = 60, int height = 40)
   cv::Mat image(height, width, CV_8U);
   for (int x = 0; x < width; ++x)
   {
-    const double bright =
-      std::min(std::max(x + 0.5 - place, 0.0), 1.0); // of the pixel centred at x
+    const double bright = std::min(std::max(x + 1.0 - place, 0.0), 1.0); // of the pixel [x, x + 1]
     image.col(x) = std::lround(60 + 120 * bright);
   }
   return image;

@@ -58,7 +58,7 @@ TEST(EpipolarIndex, FindsWhatASearchOverAllPiecesFinds)
   {
     const EdgeChains edges = RandomChains(random, 1 + trial, 12);
     const EpipolarIndex index(pair, edges, 0.1);
-    for (int query = 0; query < 200; ++query)
+    for (int query = 0; query < 2000; ++query)
     {
       const float row = 240 * unit(random) - 120; // from the axis on
       EpipolarIndex::Search search;

@@ -19,8 +19,9 @@ TEST(FileNames, OrdinaryNamesStay)
 TEST(FileNames, NoNameLeavesItsFolder)
 {
   const std::string folder = "/folder";
-  for (const std::string name : { "../../x", "/x", "..", ".", "", "a/../../b", "..\\x", ".hidden",
-         std::string("a\nb\x1b[31m").c_str(), std::string(5000, 'x').c_str() })
+  for (const std::string& name : { std::string("../../x"), std::string("/x"), std::string(".."),
+         std::string("."), std::string(), std::string("a/../../b"), std::string("..\\x"),
+         std::string(".hidden"), std::string("a\nb\x1b[31m"), std::string(5000, 'x') })
   {
     const std::string file = FileNameOf(name);
     const auto path = (std::filesystem::path(folder) / (file + ".png")).lexically_normal();

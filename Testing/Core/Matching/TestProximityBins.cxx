@@ -28,7 +28,7 @@ bool Meet(const Place& a, const Place& b, float more = 0)
 TEST(ProximityBins, NoMeetingIsMissed)
 {
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> center(-500, 500), reach(0, 3), far(0, 200);
+  std::uniform_real_distribution<float> center(-400, 400), reach(0, 3), far(0, 100);
   std::uniform_int_distribution<int> image(0, 3);
   int meeting = 0, apart = 0, kept = 0;
   for (int trial = 0; trial < 200; ++trial)
