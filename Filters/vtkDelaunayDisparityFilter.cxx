@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayDisparityFilter.h"
 
-#include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
-#include "Disparity/Background/BackgroundContinuation.h"
-#include "Disparity/DelaunayDisparity.h"
-#include "Disparity/FeatureCloud.h"
-#include "Disparity/FeatureThinning.h"
-#include "Disparity/LongTriangles.h"
-#include "Disparity/OutlierRejection.h"
+#include "Disparity/Maps/DisparityMaps.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
@@ -20,31 +14,53 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkDelaunayDisparityFilter);
 
 vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
 {
-  const freespace::DelaunayDisparityOptions disparity;
-  this->MinimumDisparity = disparity.minimumDisparity;
-  this->Tolerance = disparity.tolerance;
-  this->KeepEdges = disparity.keepEdges;
-  this->PartnerViews = disparity.partners.most;
-  const freespace::BackgroundContinuationOptions background;
-  this->ContinueBackground = true;
-  this->BackgroundViews = background.partners.most;
-  this->GrazingAngle = background.grazingAngle;
-  this->RefutingViews = background.views;
-  const freespace::OutlierRejectionOptions outliers;
-  this->SupportingNeighbors = outliers.neighbors;
-  this->SeeThroughViews = outliers.seeThroughViews;
-  this->ViolatingFeatures = outliers.violatingFeatures;
-  this->FeatureSpacing = freespace::FeatureThinningOptions().spacing;
-  const freespace::LongTrianglesOptions trim;
-  this->LongestEdge = trim.longestEdge;
-  this->GreatestDepthRatio = trim.greatestDepth;
+  const freespace::DisparityMapOptions options;
+  this->FeatureSpacing = options.thinning.spacing;
+  this->Support = options.outliers.support;
+  this->SupportRadius = options.outliers.radius;
+  this->SupportTolerance = options.outliers.tolerance;
+  this->SeeThroughViews = options.outliers.seeThroughViews;
+  this->ViolatingFeatures = options.outliers.violatingFeatures;
+  this->MinimumDisparity = options.disparity.minimumDisparity;
+  this->Tolerance = options.disparity.tolerance;
+  this->KeepEdges = options.disparity.keepEdges;
+  this->PartnerViews = options.disparity.partners.most;
+  this->ContinueBackground = options.continueBackground;
+  this->BackgroundViews = options.background.partners.most;
+  this->GrazingAngle = options.background.grazingAngle;
+  this->RefutingViews = options.background.views;
+  this->LongestEdge = options.trim.longestEdge;
+  this->GreatestDepthRatio = options.trim.greatestDepth;
+}
+
+freespace::DisparityMapOptions vtkDelaunayDisparityFilter::Options() const
+{
+  freespace::DisparityMapOptions options;
+  options.thinning.spacing = this->FeatureSpacing;
+  options.outliers.support = this->Support;
+  options.outliers.radius = this->SupportRadius;
+  options.outliers.tolerance = this->SupportTolerance;
+  options.outliers.seeThroughViews = this->SeeThroughViews;
+  options.outliers.violatingFeatures = this->ViolatingFeatures;
+  options.disparity.minimumDisparity = this->MinimumDisparity != 0;
+  options.disparity.tolerance = this->Tolerance;
+  options.disparity.keepEdges = this->KeepEdges != 0;
+  options.disparity.partners.most = this->PartnerViews;
+  options.continueBackground = this->ContinueBackground != 0;
+  options.background.partners.most = this->BackgroundViews;
+  options.background.grazingAngle = this->GrazingAngle;
+  options.background.views = this->RefutingViews;
+  options.trim.longestEdge = this->LongestEdge;
+  options.trim.greatestDepth = this->GreatestDepthRatio;
+  return options;
 }
 
 int vtkDelaunayDisparityFilter::FillInputPortInformation(int, vtkInformation* info)
@@ -58,71 +74,23 @@ int vtkDelaunayDisparityFilter::RequestData(
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
-  freespace::DelaunayDisparityOptions options;
-  options.minimumDisparity = this->MinimumDisparity != 0;
-  options.tolerance = this->Tolerance;
-  options.keepEdges = this->KeepEdges != 0;
-  freespace::BackgroundContinuationOptions background;
-  background.grazingAngle = this->GrazingAngle;
-  background.views = this->RefutingViews;
-  options.partners.most = this->PartnerViews;
-  background.partners.most = this->BackgroundViews;
-  freespace::OutlierRejectionOptions outliers;
-  outliers.neighbors = this->SupportingNeighbors;
-  outliers.seeThroughViews = this->SeeThroughViews;
-  outliers.violatingFeatures = this->ViolatingFeatures;
-  freespace::FeatureThinningOptions thinning;
-  thinning.spacing = this->FeatureSpacing;
-  freespace::LongTrianglesOptions untrusted;
-  untrusted.longestEdge = this->LongestEdge;
-  untrusted.greatestDepth = this->GreatestDepthRatio;
   try
   {
     const auto input = freespace::ViewsOf(inputVector[0]);
-    const freespace::Progress progress = freespace::AlgorithmProgress(this);
-    untrusted.Check();
-    thinning.Check();
     std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
-    freespace::ParallelForWithProgress(views.size(), freespace::SMPParallelFor,
-      progress.Part(0.0, 0.02),
-      [&](std::size_t v, const freespace::CancellationFlag&)
-      { views[v] = freespace::ThinFeatures(views[v], thinning); });
-    if (this->SupportingNeighbors != 0 || this->SeeThroughViews != 0 ||
-      this->ViolatingFeatures != 0)
+    std::vector<vtkSmartPointer<vtkPolyData>> blocks(views.size());
+    std::vector<std::string> names;
+    for (const freespace::View& view : views)
     {
-      freespace::DelaunayDisparityOptions own = options;
-      own.minimumDisparity = false;
-      const std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-        views, own, freespace::SMPParallelFor, progress.Part(0.02, 0.15));
-      views = freespace::RejectOutliers(
-        views, maps, outliers, freespace::SMPParallelFor, progress.Part(0.15, 0.25));
+      names.push_back(view.name);
     }
-    std::optional<freespace::FeatureCloud> cloud;
-    freespace::RunWithProgress(progress.Part(0.25, 0.3),
-      [&](const freespace::CancellationFlag& stop) { cloud.emplace(views, stop); });
-    std::vector<freespace::DisparityMap> maps = freespace::TriangulateViews(
-      views, *cloud, options, freespace::SMPParallelFor, progress.Part(0.3, 0.65));
-    views.clear();
-    if (this->ContinueBackground)
+    freespace::MakeDisparityMaps(std::move(views), this->Options(), freespace::SMPParallelFor,
+      freespace::AlgorithmProgress(this),
+      [&blocks](std::size_t i, const freespace::DisparityMap& map)
+      { blocks[i] = freespace::BlockFromMap(map); });
+    for (std::size_t i = 0; i < blocks.size(); ++i)
     {
-      freespace::ContinueBackground(
-        maps, *cloud, background, freespace::SMPParallelFor, progress.Part(0.65, 0.95));
-    }
-    std::vector<vtkSmartPointer<vtkPolyData>> blocks(maps.size());
-    freespace::ParallelForWithProgress(maps.size(), freespace::SMPParallelFor,
-      progress.Part(0.95, 1.0),
-      [&](std::size_t i, const freespace::CancellationFlag&)
-      {
-        freespace::RemoveLongTriangles(maps[i], untrusted);
-        blocks[i] = freespace::BlockFromMap(maps[i]);
-        // Not all of them twice in memory.
-        freespace::DisparityMap named;
-        named.name = maps[i].name;
-        maps[i] = std::move(named);
-      });
-    for (std::size_t i = 0; i < maps.size(); ++i)
-    {
-      freespace::SetNamedBlock(output, static_cast<unsigned int>(i), maps[i].name, blocks[i]);
+      freespace::SetNamedBlock(output, static_cast<unsigned int>(i), names[i], blocks[i]);
     }
   }
   catch (...)
@@ -135,6 +103,12 @@ int vtkDelaunayDisparityFilter::RequestData(
 void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "FeatureSpacing: " << this->FeatureSpacing << "\n";
+  os << indent << "Support: " << this->Support << "\n";
+  os << indent << "SupportRadius: " << this->SupportRadius << "\n";
+  os << indent << "SupportTolerance: " << this->SupportTolerance << "\n";
+  os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
+  os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";
@@ -143,10 +117,6 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BackgroundViews: " << this->BackgroundViews << "\n";
   os << indent << "GrazingAngle: " << this->GrazingAngle << "\n";
   os << indent << "RefutingViews: " << this->RefutingViews << "\n";
-  os << indent << "SupportingNeighbors: " << this->SupportingNeighbors << "\n";
-  os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
-  os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
-  os << indent << "FeatureSpacing: " << this->FeatureSpacing << "\n";
   os << indent << "LongestEdge: " << this->LongestEdge << "\n";
   os << indent << "GreatestDepthRatio: " << this->GreatestDepthRatio << "\n";
 }

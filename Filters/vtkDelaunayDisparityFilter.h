@@ -10,11 +10,10 @@
  * (standard deviation of 1 / depth). Closer ones tell more of their noise than of the surface.
  *
  * **Outliers.** One outlier in front of the scene would reach every other view through the minimum
- * disparity constraint. A feature is dropped when fewer than SupportingNeighbors of the six nearest in its
- * view have a similar disparity (end of section 2.2: support in the image neighbourhood), and, beyond the
- * paper, when it is in the free space of SeeThroughViews other views, or behind triangles that
- * ViolatingFeatures features of other views violate. A view that would keep fewer than three features
- * keeps all.
+ * disparity constraint. A feature is dropped when fewer than Support features in its neighbourhood in the
+ * image have a similar disparity (end of section 2.2), and, beyond the paper, when it is in the free space of
+ * SeeThroughViews other views, or behind triangles that ViolatingFeatures features of other views violate. See
+ * vtkOutlierFilter, which is this step alone.
  *
  * **Disparity.** The features of each view are triangulated in its image (Delaunay); their disparity
  * (1 / depth) is interpolated linearly. Disparity is affine over the image of a plane, so each triangle of
@@ -35,7 +34,7 @@
  * are not on a surface.
  *
  * Input: a vtkMultiBlockDataSet of views, as vtkEdgeStereoReader, vtkSparseModelReader and
- * vtkFeatureSupportFilter generate it. Output: the same blocks with triangles. Point data: `ImagePoint`
+ * vtkOutlierFilter generate it. Output: the same blocks with triangles. Point data: `ImagePoint`
  * (double x2, pixels) is the projection of the world point, which for a view's own features can differ
  * from where it was observed; `SourceView` (int) is the index of the view that supplied the point;
  * `DisparityDeviation` (double, where the input has it) is that of a view's own features, 0 elsewhere. Field
@@ -59,12 +58,77 @@
 #include "vtkFreespaceFiltersModule.h" // for the export macro
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
+namespace freespace
+{
+struct DisparityMapOptions;
+}
+
 class VTKFREESPACEFILTERS_EXPORT vtkDelaunayDisparityFilter : public vtkMultiBlockDataSetAlgorithm
 {
 public:
   static vtkDelaunayDisparityFilter* New();
   vtkTypeMacro(vtkDelaunayDisparityFilter, vtkMultiBlockDataSetAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  // Thinning.
+
+  ///@{
+  /**
+   * Side of the square cells of the image in which features of one depth become one, pixels. 0, the paper,
+   * keeps all. Default 3.
+   */
+  vtkSetMacro(FeatureSpacing, double);
+  vtkGetMacro(FeatureSpacing, double);
+  ///@}
+
+  // Outliers, as in vtkOutlierFilter.
+
+  ///@{
+  /**
+   * Minimum number of features in the neighbourhood of a feature with a similar disparity; 0 keeps all. Default 2.
+   */
+  vtkSetMacro(Support, int);
+  vtkGetMacro(Support, int);
+  ///@}
+
+  ///@{
+  /**
+   * The neighbourhood. 0, the default: the six nearest features in the image, within two triangles. Otherwise the
+   * features within so many mean distances between the features of the view: 2, for isolated points, has about 12.
+   */
+  vtkSetMacro(SupportRadius, double);
+  vtkGetMacro(SupportRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Maximum difference of similar disparities within SupportRadius, as a fraction of the greater one. Default 0.05.
+   */
+  vtkSetMacro(SupportTolerance, double);
+  vtkGetMacro(SupportTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * A feature is dropped if it is in the free space of at least this number of other views, and of more than
+   * have it on their surface. 0, the default and the paper, drops none.
+   */
+  vtkSetMacro(SeeThroughViews, int);
+  vtkGetMacro(SeeThroughViews, int);
+  ///@}
+
+  ///@{
+  /**
+   * A triangle is wrong if at least this number of supported features of other views violate the constraint
+   * on it, and more than lie on it. A feature is dropped, before the constraint is enforced, if it is the
+   * farthest corner of wrong triangles over most of the angle around it. 0, the default and the paper,
+   * drops none.
+   */
+  vtkSetMacro(ViolatingFeatures, int);
+  vtkGetMacro(ViolatingFeatures, int);
+  ///@}
+
+  // Disparity.
 
   ///@{
   /**
@@ -106,6 +170,8 @@ public:
   vtkGetMacro(PartnerViews, int);
   ///@}
 
+  // Background.
+
   ///@{
   /**
    * Whether the background is continued behind bridges that other views refute. Off in the paper.
@@ -142,43 +208,7 @@ public:
   vtkGetMacro(RefutingViews, int);
   ///@}
 
-  ///@{
-  /**
-   * Minimum number of the six nearest features in the image (within two triangles) with a similar disparity.
-   * 0 keeps all. Default 2.
-   */
-  vtkSetMacro(SupportingNeighbors, int);
-  vtkGetMacro(SupportingNeighbors, int);
-  ///@}
-
-  ///@{
-  /**
-   * A feature is dropped if it is in the free space of at least this number of other views, and of more than
-   * have it on their surface. 0, the default and the paper, drops none.
-   */
-  vtkSetMacro(SeeThroughViews, int);
-  vtkGetMacro(SeeThroughViews, int);
-  ///@}
-
-  ///@{
-  /**
-   * A triangle is wrong if at least this number of supported features of other views violate the constraint
-   * on it, and more than lie on it. A feature is dropped, before the constraint is enforced, if it is the
-   * farthest corner of wrong triangles over most of the angle around it. 0, the default and the paper,
-   * drops none.
-   */
-  vtkSetMacro(ViolatingFeatures, int);
-  vtkGetMacro(ViolatingFeatures, int);
-  ///@}
-
-  ///@{
-  /**
-   * Side of the square cells of the image in which features of one depth become one, pixels. 0, the paper,
-   * keeps all. Default 3.
-   */
-  vtkSetMacro(FeatureSpacing, double);
-  vtkGetMacro(FeatureSpacing, double);
-  ///@}
+  // Trim.
 
   ///@{
   /**
@@ -205,7 +235,13 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  // Defaults are those of the options structs in Filters/Core/Disparity.
+  // Defaults are those of freespace::DisparityMapOptions.
+  double FeatureSpacing;
+  int Support;
+  double SupportRadius;
+  double SupportTolerance;
+  int SeeThroughViews;
+  int ViolatingFeatures;
   vtkTypeBool MinimumDisparity;
   double Tolerance;
   vtkTypeBool KeepEdges;
@@ -214,14 +250,12 @@ protected:
   int BackgroundViews;
   double GrazingAngle;
   int RefutingViews;
-  int SupportingNeighbors;
-  int SeeThroughViews;
-  int ViolatingFeatures;
-  double FeatureSpacing;
   double LongestEdge;
   double GreatestDepthRatio;
 
 private:
+  freespace::DisparityMapOptions Options() const;
+
   vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;
   void operator=(const vtkDelaunayDisparityFilter&) = delete;
 };

@@ -36,8 +36,8 @@
  * | FieldData | Keypoint            | double x2      | observations that are no features        |
  * | FieldData | KeypointObservation | int            | their places among those of the image    |
  *
- * Isolated points want a vtkFeatureSupportFilter behind the reader that follows their density
- * (RadiusInSpacings 2, MinimumNeighbors 2, DisparityTolerance 0.05), and a vtkDelaunayDisparityFilter
+ * Isolated points want a vtkOutlierFilter behind the reader that follows their density
+ * (SupportRadius 2), and a vtkDelaunayDisparityFilter
  * without ContinueBackground: so it was measured on tracks made from a scene with known truth.
  *
  * A model that is missing, truncated or malformed, one with a camera model that is not supported,

@@ -2,7 +2,6 @@
 // From photographs to a surface: ReconstructScene SCENE.json OUT.ply [CELLS]
 #include <vtkDelaunayDisparityFilter.h>
 #include <vtkEdgeStereoReader.h>
-#include <vtkFeatureSupportFilter.h>
 #include <vtkFreespaceSurfaceFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -20,10 +19,8 @@ int main(int argc, char* argv[])
   }
   vtkNew<vtkEdgeStereoReader> stereo;
   stereo->SetFileName(argv[1]);
-  vtkNew<vtkFeatureSupportFilter> support;
-  support->SetInputConnection(stereo->GetOutputPort());
   vtkNew<vtkDelaunayDisparityFilter> maps;
-  maps->SetInputConnection(support->GetOutputPort());
+  maps->SetInputConnection(stereo->GetOutputPort());
   maps->Update();
   if (maps->GetOutput()->GetNumberOfBlocks() == 0)
   {

@@ -9,10 +9,8 @@ import freespace
 def main(scene, out, cells=-1):
     stereo = freespace.vtkEdgeStereoReader()
     stereo.SetFileName(scene)
-    support = freespace.vtkFeatureSupportFilter()
-    support.SetInputConnection(stereo.GetOutputPort())
     maps = freespace.vtkDelaunayDisparityFilter()
-    maps.SetInputConnection(support.GetOutputPort())
+    maps.SetInputConnection(stereo.GetOutputPort())
     for name, view in freespace.views(freespace.update(maps)).items():
         print(f"{name}: {len(view['points'])} points, {len(view['triangles'])} triangles")
 

@@ -83,7 +83,7 @@ TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)
     filter->SetTolerance(0.002);
     filter->SetFeatureSpacing(0);
     filter->ContinueBackgroundOff();
-    filter->SetSupportingNeighbors(0);
+    filter->SetSupport(0);
     filter->Update();
     ExpectSameMaps(MapsFromBlocks(filter->GetOutput()), expected);
   }
@@ -97,7 +97,7 @@ TEST(DelaunayDisparityFilter, SettingsReachTheCore)
   filter->MinimumDisparityOff();
   filter->SetFeatureSpacing(0);
   filter->ContinueBackgroundOff();
-  filter->SetSupportingNeighbors(0);
+  filter->SetSupport(0);
   filter->Update();
   const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
   ASSERT_EQ(maps.size(), views.size());
@@ -160,7 +160,7 @@ TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)
 
   vtkNew<vtkDelaunayDisparityFilter> filter;
   filter->SetInputDataObject(Blocks(views));
-  filter->SetSupportingNeighbors(0);
+  filter->SetSupport(0);
   filter->Update();
   std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
   EXPECT_TRUE(holdsOutlier(maps[0]));
@@ -174,13 +174,13 @@ TEST(DelaunayDisparityFilter, OutliersAndLongTrianglesAreLeftOut)
     });
   const auto all = static_cast<std::ptrdiff_t>(maps[3].triangles.size());
 
-  filter->SetSupportingNeighbors(2);
+  filter->SetSupport(2);
   filter->Update();
   for (const DisparityMap& map : MapsFromBlocks(filter->GetOutput()))
   {
     EXPECT_FALSE(holdsOutlier(map));
   }
-  filter->SetSupportingNeighbors(0);
+  filter->SetSupport(0);
   filter->SetLongestEdge(40);
   filter->Update();
   maps = MapsFromBlocks(filter->GetOutput());

@@ -4,7 +4,7 @@
 #include "Common/Error.h"
 #include "Support/ErrorObserver.h"
 #include "Support/TemporaryFolder.h"
-#include "vtkFeatureSupportFilter.h"
+#include "vtkOutlierFilter.h"
 #include "vtkViewBlocksReader.h"
 #include "vtkViewBlocksWriter.h"
 

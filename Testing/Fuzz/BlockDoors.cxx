@@ -10,7 +10,7 @@
 #include <vtkCommand.h>
 #include <vtkDelaunayDisparityFilter.h>
 #include <vtkDoubleArray.h>
-#include <vtkFeatureSupportFilter.h>
+#include <vtkOutlierFilter.h>
 #include <vtkFreespaceUnion.h>
 #include <vtkLogger.h>
 #include <vtkMultiBlockDataSet.h>
@@ -127,7 +127,7 @@ void Use(vtkMultiBlockDataSet* blocks)
   {
     Contour(phi);
   }
-  vtkNew<vtkFeatureSupportFilter> support;
+  vtkNew<vtkOutlierFilter> support;
   support->SetInputDataObject(blocks);
   UpdateOrThrow(support.Get());
   vtkNew<vtkDelaunayDisparityFilter> maps;

@@ -64,19 +64,19 @@ class TestArrays(unittest.TestCase):
         with self.assertRaises(ValueError):
             freespace.surface_arrays(cube.GetOutput())
 
-    def test_support_filter_takes_views_from_numpy(self):
+    def test_outlier_filter_takes_views_from_numpy(self):
         view = random_view(np.random.default_rng(1), 0)
-        pixels = np.array([[100., 100], [101, 100], [102, 100], [103, 100], [300, 300]])
-        depth = 2.0
+        pixels = np.array([[100., 100], [101, 101], [102, 100], [103, 101], [101, 100]])
+        depth = np.array([2.0, 2, 2, 2, 1.5])[:, None]
         rays = np.column_stack([pixels, np.ones(5)]) @ np.linalg.inv(view['K']).T
         view.update(image_points=pixels, points=depth * rays - view['cam_from_world'][:, 3])
-        support = freespace.vtkFeatureSupportFilter()
-        support.SetMinimumNeighbors(3)
+        support = freespace.vtkOutlierFilter()
+        support.SetSupport(3)
+        support.SetSupportRadius(5)
         support.SetInputDataObject(freespace.make_views({'a': freespace.make_view(**view)}))
         support.Update()
         kept = freespace.views(support.GetOutput())['a']
         np.testing.assert_array_equal(kept['image_points'], pixels[:4])
-        np.testing.assert_array_equal(kept['Support'], [3, 3, 3, 3])
 
 
 class TestImagesInMemory(unittest.TestCase):

@@ -106,7 +106,7 @@ class TestErrorCodes(unittest.TestCase):
         point = vtkPolyData()
         # Each with its inputs, a setting that it refuses and one that it takes.
         cases = (('vtkDelaunayDisparityFilter', [views], 'Tolerance', -1, 0),
-                 ('vtkFeatureSupportFilter', [views], 'Radius', -1, 0.5),
+                 ('vtkOutlierFilter', [views], 'Support', -1, 2),
                  ('vtkFreespaceSurfaceFilter', [maps], 'Cells', -5, 16),
                  ('vtkFitSurfaceFilter', [sphere, maps], 'Rounds', -1, 0),
                  ('vtkSimplifySurfaceFilter', [sphere], 'Distance', -1, 0.1),
@@ -282,7 +282,7 @@ class TestCollections(unittest.TestCase):
     views = {'a': plane_view(), 'b': plane_view(4.2, 0.1)}
 
     def outputs(self, views):
-        support = freespace.vtkFeatureSupportFilter()
+        support = freespace.vtkOutlierFilter()
         support.SetInputDataObject(views)
         maps = freespace.vtkDelaunayDisparityFilter()
         maps.SetInputDataObject(views)

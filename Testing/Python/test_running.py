@@ -51,7 +51,7 @@ stereo.Update()
     'update of a pipeline': '''
 stereo = freespace.vtkEdgeStereoReader(file_name=scene)
 stereo.AddObserver('ProgressEvent', begin)
-support = freespace.vtkFeatureSupportFilter()
+support = freespace.vtkOutlierFilter()
 support.SetInputConnection(stereo.GetOutputPort())
 freespace.update(support)
 ''',

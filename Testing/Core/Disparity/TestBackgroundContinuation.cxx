@@ -87,9 +87,9 @@ double FreeBesidePlate(const DisparityMap& map)
 }
 
 // Behind each side of the plate one other view looks.
-BackgroundContinuationOptions OneRefutes()
+BackgroundOptions OneRefutes()
 {
-  BackgroundContinuationOptions options;
+  BackgroundOptions options;
   options.views = 1;
   return options;
 }
@@ -207,7 +207,7 @@ TEST(ContinueBackground, WithoutWitnessBridgesStay)
   views = PlateBeforeWall();
   maps = TriangulateViews(views, DelaunayDisparityOptions());
   const std::vector<DisparityMap> three = maps;
-  BackgroundContinuationOptions options;
+  BackgroundOptions options;
   options.views = 3; // but there are only two others
   ContinueBackground(maps, views, options);
   EXPECT_EQ(maps[0].triangles, three[0].triangles);
@@ -229,19 +229,19 @@ TEST(ContinueBackground, KnownPointsAreNotFreed)
 TEST(ContinueBackground, NoMapsAndEmptyMaps)
 {
   std::vector<DisparityMap> maps;
-  ContinueBackground(maps, {}, BackgroundContinuationOptions());
+  ContinueBackground(maps, {}, BackgroundOptions());
   EXPECT_TRUE(maps.empty());
   maps.resize(2);
   maps[0].camera.width = maps[0].camera.height = 10;
   maps[1].camera = maps[0].camera;
-  ContinueBackground(maps, std::vector<View>(2), BackgroundContinuationOptions());
+  ContinueBackground(maps, std::vector<View>(2), BackgroundOptions());
   EXPECT_EQ(maps.size(), 2u);
 }
 
 TEST(ContinueBackground, OptionsOutOfRange)
 {
   std::vector<DisparityMap> maps;
-  BackgroundContinuationOptions options;
+  BackgroundOptions options;
   options.noise = 0;
   EXPECT_THROW(ContinueBackground(maps, {}, options), Error);
   options = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A project of somebody else's that uses the installed library.
-#include <vtkFeatureSupportFilter.h>
+#include <vtkOutlierFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkSurfaceWriter.h>
@@ -9,7 +9,7 @@
 int main()
 {
   vtkNew<vtkMultiBlockDataSet> empty;
-  vtkNew<vtkFeatureSupportFilter> support;
+  vtkNew<vtkOutlierFilter> support;
   support->SetInputDataObject(empty);
   support->Update();
   vtkNew<vtkViewBlocksReader> reader;

@@ -63,7 +63,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
 {
   if (vtkSparseModelReader::CanReadFile(settings.scene))
   {
-    const auto features = settings.sparse.Run(session, settings.scene);
+    const auto features =
+      settings.sparse.Run(session, settings.scene, settings.triangulate.MinimumSupport());
     return settings.densify.IsWanted()
       ? settings.densify.Run(session, settings.scene, features, settings.stereo)
       : features;

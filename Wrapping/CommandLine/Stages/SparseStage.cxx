@@ -5,9 +5,9 @@
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
 
-#include <vtkFeatureSupportFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkOutlierFilter.h>
 #include <vtkSparseModelReader.h>
 
 namespace freespace
@@ -30,17 +30,11 @@ void SparseStage::AddOptions(CLI::App& command)
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
-  command
-    .add_option("--min-support", this->SupportNeighbors,
-      "Minimum number of the 12 nearest features with a similar depth; 0 keeps all")
-    ->check(NonNegative())
-    ->capture_default_str()
-    ->group("Structure-from-motion model");
   this->WrongImages.AddTo(command, "Structure-from-motion model");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
-  Session& session, const std::string& model) const
+  Session& session, const std::string& model, int minimumSupport) const
 {
   if (const std::string told = FindModel(model).told; !told.empty())
   {
@@ -53,13 +47,12 @@ vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
   reader->SetMaximumError(this->MaximumError);
   reader->SetMinimumAngle(this->MinimumAngle);
   session.Run(reader, "sparse");
-  vtkNew<vtkFeatureSupportFilter> support;
-  support->SetInputConnection(reader->GetOutputPort());
-  support->SetRadiusInSpacings(2);
-  support->SetDisparityTolerance(0.05);
-  support->SetMinimumNeighbors(this->SupportNeighbors);
-  session.Run(support, "support");
-  vtkSmartPointer<vtkMultiBlockDataSet> features = support->GetOutput();
+  vtkNew<vtkOutlierFilter> outliers;
+  outliers->SetInputConnection(reader->GetOutputPort());
+  outliers->SetSupport(minimumSupport);
+  outliers->SetSupportRadius(2);
+  session.Run(outliers, "outliers");
+  vtkSmartPointer<vtkMultiBlockDataSet> features = outliers->GetOutput();
   session.Log("sparse: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
     std::to_string(features->GetNumberOfPoints()) + " features");
   return features;

@@ -17,18 +17,18 @@ namespace freespace
 
 class Session;
 
-/// Structure-from-motion model -> features: vtkSparseModelReader, vtkFeatureSupportFilter. Like the other stages (Stages.h).
+/// Structure-from-motion model -> features: vtkSparseModelReader, vtkOutlierFilter. Like the other stages (Stages.h).
 class SparseStage
 {
 public:
   void AddOptions(CLI::App& command);
-  vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& model) const;
+  vtkSmartPointer<vtkMultiBlockDataSet> Run(
+    Session& session, const std::string& model, int minimumSupport) const;
 
 private:
   int MinimumTrackLength = 2;
   double MaximumError = 4;
   double MinimumAngle = 5;
-  int SupportNeighbors = 2;
   WrongImagesOption WrongImages;
 };
 

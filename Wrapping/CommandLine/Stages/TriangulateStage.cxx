@@ -5,7 +5,6 @@
 #include "Session/Session.h"
 
 #include <vtkDelaunayDisparityFilter.h>
-#include <vtkFeatureSupportFilter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -33,15 +32,25 @@ bool AreIsolated(vtkMultiBlockDataSet* features)
 
 }
 
+void AddSupportOption(CLI::App& command, int& support, const std::string& group)
+{
+  command
+    .add_option("--support", support,
+      "Minimum number of neighbours of a feature with a similar depth; one with fewer is an "
+      "outlier; "
+      "0 keeps all")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group(group);
+}
+
 void TriangulateStage::AddOptions(CLI::App& command)
 {
-  command.add_option("--support-radius", this->SupportRadius, "Neighbourhood of a feature, pixels")
-    ->check(Positive())
-    ->capture_default_str()
-    ->group("Disparity maps");
+  AddSupportOption(command, this->Support, "Disparity maps");
   command
-    .add_option("--support", this->SupportNeighbors,
-      "Minimum number of features in the neighbourhood with a similar depth; 0 keeps all")
+    .add_option("--support-radius", this->SupportRadius,
+      "Neighbourhood of a feature in mean distances between features; 0: its six nearest in the "
+      "triangulation")
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Disparity maps");
@@ -61,13 +70,6 @@ void TriangulateStage::AddOptions(CLI::App& command)
     .add_option("--partner-views", this->PartnerViews,
       "Number of other views whose features can be inserted into a view; 0: all")
     ->check(CLI::Range(0, 1000000))
-    ->capture_default_str()
-    ->group("Disparity maps");
-  command
-    .add_option("--neighbors", this->SupportingNeighbors,
-      "Minimum number of the six nearest features with a similar depth; a feature with fewer is an "
-      "outlier; 0 keeps all")
-    ->check(CLI::Range(0, 6))
     ->capture_default_str()
     ->group("Disparity maps");
   command
@@ -116,17 +118,13 @@ void TriangulateStage::AddOptions(CLI::App& command)
 vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   Session& session, vtkMultiBlockDataSet* features) const
 {
-  vtkNew<vtkFeatureSupportFilter> support;
-  support->SetInputDataObject(features);
-  support->SetRadius(this->SupportRadius);
-  support->SetMinimumNeighbors(this->SupportNeighbors);
-  session.Run(support, "support");
   vtkNew<vtkDelaunayDisparityFilter> maps;
-  maps->SetInputConnection(support->GetOutputPort());
+  maps->SetInputDataObject(features);
   maps->SetFeatureSpacing(this->FeatureSpacing);
   maps->SetPartnerViews(this->PartnerViews);
   maps->SetTolerance(this->Tolerance);
-  maps->SetSupportingNeighbors(this->SupportingNeighbors);
+  maps->SetSupport(this->Support);
+  maps->SetSupportRadius(this->SupportRadius);
   maps->SetSeeThroughViews(this->SeeThroughViews);
   maps->SetViolatingFeatures(this->ViolatingFeatures);
   maps->SetLongestEdge(this->LongestEdge);

@@ -2,12 +2,7 @@
 #ifndef freespace_TriangulateStage_h
 #define freespace_TriangulateStage_h
 
-#include "Disparity/Background/BackgroundContinuation.h"
-#include "Disparity/DelaunayDisparity.h"
-#include "Disparity/FeatureSupport.h"
-#include "Disparity/FeatureThinning.h"
-#include "Disparity/LongTriangles.h"
-#include "Disparity/OutlierRejection.h"
+#include "Disparity/Maps/DisparityMaps.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,7 +17,10 @@ namespace freespace
 
 class Session;
 
-/// features -> disparity maps: vtkFeatureSupportFilter, vtkDelaunayDisparityFilter.
+/// The minimum support of a feature, of one name for all commands.
+void AddSupportOption(CLI::App& command, int& support, const std::string& group);
+
+/// features -> disparity maps: vtkDelaunayDisparityFilter.
 ///
 /// Has the options that its own command and `reconstruct` share. Run throws Error when it fails.
 class TriangulateStage
@@ -31,18 +29,20 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, vtkMultiBlockDataSet* features) const;
 
+  /// Minimum number of neighbours that a feature needs.
+  int MinimumSupport() const { return this->Support; }
+
 private:
-  double SupportRadius = FeatureSupportOptions().radius;
-  int SupportNeighbors = FeatureSupportOptions().minimumNeighbors;
+  int Support = OutlierOptions().support;
+  double SupportRadius = OutlierOptions().radius;
+  int SeeThroughViews = OutlierOptions().seeThroughViews;
+  int ViolatingFeatures = OutlierOptions().violatingFeatures;
   double FeatureSpacing = FeatureThinningOptions().spacing;
   double Tolerance = DelaunayDisparityOptions().tolerance;
   int PartnerViews = DelaunayDisparityOptions().partners.most;
-  int BackgroundViews = BackgroundContinuationOptions().partners.most;
-  int SupportingNeighbors = OutlierRejectionOptions().neighbors;
-  int SeeThroughViews = OutlierRejectionOptions().seeThroughViews;
-  int ViolatingFeatures = OutlierRejectionOptions().violatingFeatures;
-  double LongestEdge = LongTrianglesOptions().longestEdge;
-  double GreatestDepthRatio = LongTrianglesOptions().greatestDepth;
+  int BackgroundViews = BackgroundOptions().partners.most;
+  double LongestEdge = TrimOptions().longestEdge;
+  double GreatestDepthRatio = TrimOptions().greatestDepth;
   bool KeepEdges = DelaunayDisparityOptions().keepEdges;
   std::string Background = "auto";
 };

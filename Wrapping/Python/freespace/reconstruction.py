@@ -4,8 +4,7 @@ import os
 
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
-from .classes import (vtkDelaunayDisparityFilter, vtkEdgeStereoReader, vtkFeatureSupportFilter,
-                      vtkFreespaceSurfaceFilter)
+from .classes import vtkDelaunayDisparityFilter, vtkEdgeStereoReader, vtkFreespaceSurfaceFilter
 from .update import update
 
 
@@ -23,9 +22,7 @@ def reconstruct(scene, *, cells=0, **properties):
         maps.SetInputDataObject(scene)
     else:
         stereo = vtkEdgeStereoReader(file_name=os.fspath(scene))
-        support = vtkFeatureSupportFilter()
-        support.SetInputConnection(stereo.GetOutputPort())
-        maps.SetInputConnection(support.GetOutputPort())
+        maps.SetInputConnection(stereo.GetOutputPort())
     surface = vtkFreespaceSurfaceFilter(cells=cells, **properties)
     surface.SetInputConnection(maps.GetOutputPort())
     return update(surface)

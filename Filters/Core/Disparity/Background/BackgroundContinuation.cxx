@@ -39,8 +39,7 @@ public:
   /// The maps of the overlapping views.
   using Others = std::vector<const BridgedMap*>;
 
-  BackgroundContinuer(
-    const BridgedMap& own, Others others, const BackgroundContinuationOptions& options)
+  BackgroundContinuer(const BridgedMap& own, Others others, const BackgroundOptions& options)
     : Own(own)
     , OtherMaps(std::move(others))
     , Options(options)
@@ -77,7 +76,7 @@ private:
 
   const BridgedMap& Own;
   Others OtherMaps;
-  const BackgroundContinuationOptions& Options;
+  const BackgroundOptions& Options;
   std::unordered_map<std::uint64_t, std::optional<double>> Planes; // by the ends of their edge
   std::vector<int> Stamp; // per point, the last search that visited it
   int Search = 0;
@@ -416,7 +415,7 @@ DisparityMap BackgroundContinuer::Continue(
 
 }
 
-void BackgroundContinuationOptions::Check() const
+void BackgroundOptions::Check() const
 {
   if (!(this->noise > 0) || !std::isfinite(this->noise))
   {
@@ -438,8 +437,7 @@ void BackgroundContinuationOptions::Check() const
 }
 
 void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& cloud,
-  const BackgroundContinuationOptions& options, const ParallelFor& parallelFor,
-  const Progress& progress)
+  const BackgroundOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
   options.Check();
   std::vector<double> work;
@@ -471,8 +469,7 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
 }
 
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
-  const BackgroundContinuationOptions& options, const ParallelFor& parallelFor,
-  const Progress& progress)
+  const BackgroundOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
   ContinueBackground(maps, FeatureCloud(views), options, parallelFor, progress);
 }

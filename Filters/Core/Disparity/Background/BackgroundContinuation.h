@@ -14,7 +14,7 @@ namespace freespace
 
 /// When a triangle counts as a bridge over a depth jump, and how the background is continued behind
 /// it.
-struct BackgroundContinuationOptions
+struct BackgroundOptions
 {
   /// Relative noise of the features' depth; > 0. The other thresholds are small multiples of it.
   double noise = 5e-4;
@@ -57,12 +57,12 @@ struct BackgroundContinuationOptions
 /// The given maps are used as they are, in any order of processing; their order is that of the
 /// views.
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,
-  const BackgroundContinuationOptions& options, const ParallelFor& parallelFor = SerialFor,
+  const BackgroundOptions& options, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = Progress());
 
 /// The same with a given cloud of the views' features.
 void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& cloud,
-  const BackgroundContinuationOptions& options, const ParallelFor& parallelFor = SerialFor,
+  const BackgroundOptions& options, const ParallelFor& parallelFor = SerialFor,
   const Progress& progress = Progress());
 
 }

@@ -17,8 +17,8 @@ constexpr double LeastJump = 10;
 
 }
 
-BridgedMap::BridgedMap(const DisparityMap& given, const BackgroundContinuationOptions& options,
-  const CancellationFlag& stop)
+BridgedMap::BridgedMap(
+  const DisparityMap& given, const BackgroundOptions& options, const CancellationFlag& stop)
   : map(given)
   , freespace(given, stop)
   , isBridge(given.triangles.size())
@@ -50,7 +50,7 @@ BridgedMap::BridgedMap(const DisparityMap& given, const BackgroundContinuationOp
 }
 
 // Whether a triangle spans a depth jump: far deeper than noise, and at grazing incidence.
-bool BridgedMap::Spans(std::size_t triangle, const BackgroundContinuationOptions& options) const
+bool BridgedMap::Spans(std::size_t triangle, const BackgroundOptions& options) const
 {
   const auto [a, b, c] = this->map.triangles[triangle];
   const auto [far, near] =

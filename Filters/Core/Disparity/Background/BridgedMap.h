@@ -15,8 +15,8 @@ namespace freespace
 struct BridgedMap
 {
   /// Keeps a reference to the map. Throws Aborted soon after the flag is set.
-  BridgedMap(const DisparityMap& map, const BackgroundContinuationOptions& options,
-    const CancellationFlag& stop);
+  BridgedMap(
+    const DisparityMap& map, const BackgroundOptions& options, const CancellationFlag& stop);
 
   const DisparityMap& map;
   ViewFreespace freespace;
@@ -25,7 +25,7 @@ struct BridgedMap
   GroupedLists<int> sound;       ///< per point, its triangles that are not bridges
 
 private:
-  bool Spans(std::size_t triangle, const BackgroundContinuationOptions& options) const;
+  bool Spans(std::size_t triangle, const BackgroundOptions& options) const;
 };
 
 /// The parts of the image that bridges touch: rejects most points at the cost of a projection.

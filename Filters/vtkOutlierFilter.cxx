@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkFeatureSupportFilter.h"
+#include "vtkOutlierFilter.h"
 
-#include "Common/ParallelForWithProgress.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
-#include "Disparity/FeatureSupport.h"
+#include "Disparity/Outliers/Outliers.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
@@ -12,7 +11,6 @@
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
-#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -20,19 +18,18 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
-#include <algorithm>
-#include <iterator>
 #include <vector>
 
-vtkStandardNewMacro(vtkFeatureSupportFilter);
+vtkStandardNewMacro(vtkOutlierFilter);
 
-vtkFeatureSupportFilter::vtkFeatureSupportFilter()
+vtkOutlierFilter::vtkOutlierFilter()
 {
-  const freespace::FeatureSupportOptions options;
-  this->Radius = options.radius;
-  this->RadiusInSpacings = options.spacings;
-  this->MinimumNeighbors = options.minimumNeighbors;
-  this->DisparityTolerance = options.disparityTolerance;
+  const freespace::OutlierOptions options;
+  this->Support = options.support;
+  this->SupportRadius = options.radius;
+  this->SupportTolerance = options.tolerance;
+  this->SeeThroughViews = options.seeThroughViews;
+  this->ViolatingFeatures = options.violatingFeatures;
 }
 
 namespace
@@ -60,8 +57,7 @@ void CopyLines(vtkPolyData* input, const std::vector<vtkIdType>& newId, vtkPolyD
   output->SetLines(lines);
 }
 
-vtkSmartPointer<vtkPolyData> KeepSupported(
-  vtkPolyData* input, const std::vector<int>& support, int minimum)
+vtkSmartPointer<vtkPolyData> KeepAccepted(vtkPolyData* input, const std::vector<char>& accepted)
 {
   auto output = vtkSmartPointer<vtkPolyData>::New();
   output->GetFieldData()->PassData(input->GetFieldData());
@@ -69,63 +65,53 @@ vtkSmartPointer<vtkPolyData> KeepSupported(
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkIntArray> counts;
-  counts->SetName("Support");
-  std::vector<vtkIdType> newId(support.size(), -1);
-  for (std::size_t i = 0; i < support.size(); ++i)
+  std::vector<vtkIdType> newId(accepted.size(), -1);
+  for (std::size_t i = 0; i < accepted.size(); ++i)
   {
-    if (support[i] >= minimum)
+    if (accepted[i])
     {
       const vtkIdType from = static_cast<vtkIdType>(i);
       const vtkIdType id = newId[i] = points->InsertNextPoint(input->GetPoint(from));
       output->GetPointData()->CopyData(input->GetPointData(), from, id);
       vertices->InsertNextCell(1, &id);
-      counts->InsertNextValue(support[i]);
     }
   }
   output->SetPoints(points);
   output->SetVerts(vertices);
-  output->GetPointData()->AddArray(counts);
   CopyLines(input, newId, output);
   return output;
 }
 
 }
 
-int vtkFeatureSupportFilter::FillInputPortInformation(int, vtkInformation* info)
+int vtkOutlierFilter::FillInputPortInformation(int, vtkInformation* info)
 {
   freespace::AcceptViews(info);
   return 1;
 }
 
-int vtkFeatureSupportFilter::RequestData(
+int vtkOutlierFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
-  freespace::FeatureSupportOptions options;
-  options.radius = this->Radius;
-  options.spacings = this->RadiusInSpacings;
-  options.minimumNeighbors = this->MinimumNeighbors;
-  options.disparityTolerance = this->DisparityTolerance;
+  freespace::OutlierOptions options;
+  options.support = this->Support;
+  options.radius = this->SupportRadius;
+  options.tolerance = this->SupportTolerance;
+  options.seeThroughViews = this->SeeThroughViews;
+  options.violatingFeatures = this->ViolatingFeatures;
   try
   {
     const auto input = freespace::ViewsOf(inputVector[0]);
-    const freespace::Progress progress = freespace::AlgorithmProgress(this);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
-    std::vector<double> work;
-    std::transform(views.begin(), views.end(), std::back_inserter(work),
-      [](const freespace::View& view) { return static_cast<double>(view.points.size()); });
-    std::vector<std::vector<int>> support(views.size());
-    freespace::ParallelForWithProgress(work, freespace::SMPParallelFor, progress,
-      [&](std::size_t i, const freespace::CancellationFlag&)
-      { support[i] = freespace::CountSupport(views[i], options); });
+    const auto accepted = freespace::AcceptedFeatures(
+      views, options, {}, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       const unsigned int index = static_cast<unsigned int>(i);
       freespace::SetNamedBlock(output, index, views[i].name,
-        KeepSupported(
-          vtkPolyData::SafeDownCast(input->GetBlock(index)), support[i], this->MinimumNeighbors));
+        KeepAccepted(vtkPolyData::SafeDownCast(input->GetBlock(index)), accepted[i]));
     }
   }
   catch (...)
@@ -135,11 +121,12 @@ int vtkFeatureSupportFilter::RequestData(
   return 1;
 }
 
-void vtkFeatureSupportFilter::PrintSelf(ostream& os, vtkIndent indent)
+void vtkOutlierFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "RadiusInSpacings: " << this->RadiusInSpacings << "\n";
-  os << indent << "MinimumNeighbors: " << this->MinimumNeighbors << "\n";
-  os << indent << "DisparityTolerance: " << this->DisparityTolerance << "\n";
+  os << indent << "Support: " << this->Support << "\n";
+  os << indent << "SupportRadius: " << this->SupportRadius << "\n";
+  os << indent << "SupportTolerance: " << this->SupportTolerance << "\n";
+  os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
+  os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
 }

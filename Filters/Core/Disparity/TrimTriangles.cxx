@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/LongTriangles.h"
+#include "Disparity/TrimTriangles.h"
 
 #include "Common/Error.h"
 
@@ -12,7 +12,7 @@ namespace
 {
 
 bool IsTrusted(
-  const DisparityMap& map, const std::array<int, 3>& triangle, const LongTrianglesOptions& options)
+  const DisparityMap& map, const std::array<int, 3>& triangle, const TrimOptions& options)
 {
   double longest = 0, nearest = HUGE_VAL, farthest = 0;
   for (int i = 0; i < 3; ++i)
@@ -29,7 +29,7 @@ bool IsTrusted(
 
 }
 
-void LongTrianglesOptions::Check() const
+void TrimOptions::Check() const
 {
   if (!(this->longestEdge >= 0))
   {
@@ -41,7 +41,7 @@ void LongTrianglesOptions::Check() const
   }
 }
 
-void RemoveLongTriangles(DisparityMap& map, const LongTrianglesOptions& options)
+void TrimTriangles(DisparityMap& map, const TrimOptions& options)
 {
   options.Check();
   if (options.longestEdge == 0 && options.greatestDepth == 0)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/FeatureSupport.h"
+#include "Disparity/Outliers/RadiusSupport.h"
 
-#include "Common/Error.h"
 #include "Common/GroupedLists.h"
 
 #include <algorithm>
@@ -157,9 +156,11 @@ std::vector<double> UsableDisparities(const View& view)
   return disparity;
 }
 
-// Of features spread evenly over the box that holds them.
-double MeanSpacing(const View& view, const std::vector<double>& disparity)
+}
+
+double MeanSpacing(const View& view)
 {
+  const std::vector<double> disparity = UsableDisparities(view);
   Eigen::AlignedBox2d box;
   int count = 0;
   for (std::size_t i = 0; i < disparity.size(); ++i)
@@ -173,38 +174,16 @@ double MeanSpacing(const View& view, const std::vector<double>& disparity)
   return count > 0 ? std::sqrt(box.sizes().prod() / count) : 0;
 }
 
-}
-
-void FeatureSupportOptions::Check() const
+std::vector<int> CountSupport(const View& view, double radius, double tolerance)
 {
-  if (!(this->spacings >= 0))
-  {
-    throw Error("The radius of a neighbourhood in spacings cannot be negative.");
-  }
-  if (!(this->radius > 0))
-  {
-    throw Error("The radius of a feature's neighbourhood must be positive.");
-  }
-  if (this->minimumNeighbors < 0 || !(this->disparityTolerance >= 0))
-  {
-    throw Error("The least number of neighbours and the disparity tolerance cannot be negative.");
-  }
-}
-
-std::vector<int> CountSupport(const View& view, const FeatureSupportOptions& options)
-{
-  options.Check();
   const std::vector<double> disparity = UsableDisparities(view);
-  const double radius = options.spacings > 0
-    ? std::max(options.spacings * MeanSpacing(view, disparity), 1.0)
-    : options.radius;
   const CellGrid grid(view.imagePoints, disparity, radius, view.camera);
   std::vector<int> support(view.points.size(), -1);
   for (std::size_t i = 0; i < support.size(); ++i)
   {
     if (disparity[i] > 0)
     {
-      support[i] = grid.Count(i, options.disparityTolerance, mostSupport) - 1;
+      support[i] = grid.Count(i, tolerance, mostSupport) - 1;
     }
   }
   return support;

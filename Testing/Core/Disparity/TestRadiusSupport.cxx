@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/FeatureSupport.h"
-
-#include "Common/Error.h"
+#include "Disparity/Outliers/RadiusSupport.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +39,7 @@ View RandomView(unsigned int seed)
   return view;
 }
 
-std::vector<int> BruteForceSupport(const View& view, const FeatureSupportOptions& options)
+std::vector<int> BruteForceSupport(const View& view, double radius, double tolerance)
 {
   std::vector<int> support(view.points.size(), 0);
   for (std::size_t i = 0; i < support.size(); ++i)
@@ -50,9 +48,8 @@ std::vector<int> BruteForceSupport(const View& view, const FeatureSupportOptions
     {
       const double a = 1 / view.camera.Depth(view.points[i]);
       const double b = 1 / view.camera.Depth(view.points[j]);
-      support[i] += i != j &&
-        (view.imagePoints[i] - view.imagePoints[j]).norm() <= options.radius &&
-        std::abs(a - b) <= options.disparityTolerance * std::max(a, b);
+      support[i] += i != j && (view.imagePoints[i] - view.imagePoints[j]).norm() <= radius &&
+        std::abs(a - b) <= tolerance * std::max(a, b);
     }
   }
   return support;
@@ -60,18 +57,17 @@ std::vector<int> BruteForceSupport(const View& view, const FeatureSupportOptions
 
 }
 
-TEST(FeatureSupport, AgreesWithBruteForce)
+TEST(RadiusSupport, AgreesWithBruteForce)
 {
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
     const View view = RandomView(seed);
-    FeatureSupportOptions options;
-    options.radius = 1.0 + seed;
-    EXPECT_EQ(CountSupport(view, options), BruteForceSupport(view, options)) << "seed " << seed;
+    EXPECT_EQ(CountSupport(view, 1.0 + seed, 0.01), BruteForceSupport(view, 1.0 + seed, 0.01))
+      << "seed " << seed;
   }
 }
 
-TEST(FeatureSupport, OutlierHasNone)
+TEST(RadiusSupport, OutlierHasNone)
 {
   View view = MakeView();
   for (int i = 0; i < 5; ++i)
@@ -79,16 +75,16 @@ TEST(FeatureSupport, OutlierHasNone)
     AddFeature(view, { 50.0 + i, 40.0 }, 1.0);
   }
   AddFeature(view, { 52.0, 40.5 }, 0.5);
-  const std::vector<int> support = CountSupport(view, FeatureSupportOptions());
+  const std::vector<int> support = CountSupport(view, 4, 0.01);
   EXPECT_EQ(support, (std::vector<int>{ 4, 4, 4, 4, 4, 0 }));
 }
 
-TEST(FeatureSupport, EmptyView)
+TEST(RadiusSupport, EmptyView)
 {
-  EXPECT_TRUE(CountSupport(MakeView(), FeatureSupportOptions()).empty());
+  EXPECT_TRUE(CountSupport(MakeView(), 4, 0.01).empty());
 }
 
-TEST(FeatureSupport, NotANumberAndBehindTheCameraAreUnusable)
+TEST(RadiusSupport, NotANumberAndBehindTheCameraAreUnusable)
 {
   View view = MakeView();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -99,19 +95,19 @@ TEST(FeatureSupport, NotANumberAndBehindTheCameraAreUnusable)
   AddFeature(view, { 50, 40 }, -1.0);
   view.points.push_back({ 0, 0, 1 });
   view.imagePoints.push_back({ nan, nan });
-  EXPECT_EQ(CountSupport(view, FeatureSupportOptions()), (std::vector<int>{ 1, 1, -1, -1, -1 }));
+  EXPECT_EQ(CountSupport(view, 4, 0.01), (std::vector<int>{ 1, 1, -1, -1, -1 }));
 }
 
-TEST(FeatureSupport, DuplicatesSupportEachOther)
+TEST(RadiusSupport, DuplicatesSupportEachOther)
 {
   View view = MakeView();
   AddFeature(view, { 50, 40 }, 1.0);
   AddFeature(view, { 50, 40 }, 1.0);
-  EXPECT_EQ(CountSupport(view, FeatureSupportOptions()), (std::vector<int>{ 1, 1 }));
+  EXPECT_EQ(CountSupport(view, 4, 0.01), (std::vector<int>{ 1, 1 }));
 }
 
 // Each with each would be 10^11 comparisons.
-TEST(FeatureSupport, CoincidentByTheHundredThousand)
+TEST(RadiusSupport, CoincidentByTheHundredThousand)
 {
   constexpr int count = 300000;
   View view = MakeView();
@@ -120,20 +116,13 @@ TEST(FeatureSupport, CoincidentByTheHundredThousand)
     AddFeature(view, { 50, 40 }, i < count / 2 ? 1.0 : 3.0);
   }
   AddFeature(view, { -500, 40 }, 1.0);
-  const std::vector<int> support = CountSupport(view, FeatureSupportOptions());
+  const std::vector<int> support = CountSupport(view, 4, 0.01);
   EXPECT_EQ(support.front(), count / 2 - 1);
   EXPECT_EQ(support[count - 1], count / 2 - 1);
   EXPECT_EQ(support.back(), 0);
 }
 
-TEST(FeatureSupport, OptionsOutOfRange)
-{
-  FeatureSupportOptions options;
-  options.radius = 0;
-  EXPECT_THROW(CountSupport(MakeView(), options), Error);
-}
-
-TEST(FeatureSupport, RadiusInSpacings)
+TEST(RadiusSupport, MeanSpacingOfAGrid)
 {
   // A grid of 10 x 8 features 10 pixels apart covers 90 x 70 pixels: a mean spacing of 8.87.
   View view = MakeView();
@@ -141,28 +130,20 @@ TEST(FeatureSupport, RadiusInSpacings)
   {
     AddFeature(view, { 5.0 + i % 10 * 10, 5.0 + i / 10 * 10 }, 2);
   }
-  FeatureSupportOptions options;
-  options.radius = 0.5;
-  options.spacings = 1.2; // 10.6 pixels: the four next to it
-  const std::vector<int> support = CountSupport(view, options);
+  const double spacing = MeanSpacing(view);
+  EXPECT_DOUBLE_EQ(spacing, std::sqrt(90.0 * 70 / 80));
+  const std::vector<int> support = CountSupport(view, 1.2 * spacing, 0.01); // the four next to it
   EXPECT_EQ(support[0], 2);
   EXPECT_EQ(support[1], 3);
   EXPECT_EQ(support[11], 4);
-  options.spacings = 1.65; // 14.6 pixels: also the diagonal ones
-  EXPECT_EQ(CountSupport(view, options)[11], 8);
-  options.spacings = 0;
-  EXPECT_EQ(CountSupport(view, options)[11], 0) << "the radius in pixels";
-  options.spacings = -1;
-  EXPECT_THROW(CountSupport(view, options), Error);
+  EXPECT_EQ(CountSupport(view, 1.65 * spacing, 0.01)[11], 8); // also the diagonal ones
 }
 
-TEST(FeatureSupport, RadiusInSpacingsOfCoincidentOrNoFeatures)
+TEST(RadiusSupport, MeanSpacingOfCoincidentOrNoFeatures)
 {
   View view = MakeView();
-  FeatureSupportOptions options;
-  options.spacings = 2;
-  EXPECT_TRUE(CountSupport(view, options).empty());
+  EXPECT_EQ(MeanSpacing(view), 0);
   AddFeature(view, { 5, 5 }, 2);
   AddFeature(view, { 5, 5 }, 2);
-  EXPECT_EQ(CountSupport(view, options), (std::vector<int>{ 1, 1 }));
+  EXPECT_EQ(MeanSpacing(view), 0);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/OutlierRejection.h"
+#include "Disparity/Outliers/Outliers.h"
 
 #include "Common/Error.h"
 #include "Disparity/DelaunayDisparity.h"
-#include "Disparity/LongTriangles.h"
+#include "Disparity/Outliers/RadiusSupport.h"
+#include "Disparity/TrimTriangles.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,7 @@ TEST(RejectOutliers, WhatIsThrownAlongItsRayIsFoundAtAnyDensity)
           center + (i % 40 ? 1 - thrown(random) : 1 + thrown(random)) * (view.points[i] - center);
       }
     }
-    const auto accepted = AcceptedFeatures(views, OwnMaps(views), OutlierRejectionOptions());
+    const auto accepted = AcceptedFeatures(views, OutlierOptions());
     for (std::size_t v = 0; v < views.size(); ++v)
     {
       std::size_t kept = 0, missed = 0;
@@ -86,9 +87,9 @@ TEST(RejectOutliers, WhatIsThrownAlongItsRayIsFoundAtAnyDensity)
 TEST(RejectOutliers, WithoutTestsAllFeaturesInTrianglesPass)
 {
   const std::vector<View> views = SheetViews(100);
-  OutlierRejectionOptions options;
-  options.neighbors = 0;
-  for (const auto& accepted : AcceptedFeatures(views, OwnMaps(views), options))
+  OutlierOptions options;
+  options.support = 0;
+  for (const auto& accepted : AcceptedFeatures(views, options))
   {
     EXPECT_EQ(CountAccepted(accepted), 100u);
   }
@@ -102,11 +103,10 @@ TEST(RejectOutliers, OtherViewsSeeThroughAClump)
   {
     views[0].points[i] = views[0].camera.Unproject({ 500.0 + 0.3 * i, 500.0 + 0.1 * i * i }, 2);
   }
-  OutlierRejectionOptions options;
-  const std::vector<DisparityMap> maps = OwnMaps(views);
-  EXPECT_TRUE(AcceptedFeatures(views, maps, options)[0][1]);
+  OutlierOptions options;
+  EXPECT_TRUE(AcceptedFeatures(views, options)[0][1]);
   options.seeThroughViews = 2;
-  const auto accepted = AcceptedFeatures(views, maps, options);
+  const auto accepted = AcceptedFeatures(views, options);
   EXPECT_FALSE(accepted[0][0] || accepted[0][1] || accepted[0][2]);
   EXPECT_GT(CountAccepted(accepted[1]), 1900u);
 }
@@ -127,10 +127,10 @@ TEST(RejectOutliers, FeaturesOfOtherViewsRefuteWhatIsBehindThem)
   const Eigen::Vector3d center = views[0].camera.Center();
   views[0].points[behind] = center + 1.1 * (views[0].points[behind] - center);
   views[0].points[before] = center + 0.9 * (views[0].points[before] - center);
-  OutlierRejectionOptions options;
-  options.neighbors = 0;
+  OutlierOptions options;
+  options.support = 0;
   options.violatingFeatures = 1;
-  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  const auto accepted = AcceptedFeatures(views, options);
   EXPECT_FALSE(accepted[0][behind]);
   EXPECT_TRUE(accepted[0][before]); // it claims too little, not too much
   EXPECT_EQ(CountAccepted(accepted[0]), 1999u);
@@ -145,52 +145,113 @@ TEST(RejectOutliers, AMissedFeatureRefutesNobody)
   std::vector<View> views = SheetViews(2000);
   views[1].points.push_back(views[1].camera.Unproject({ 500, 500 }, 2));
   views[1].imagePoints.emplace_back(500, 500);
-  OutlierRejectionOptions options;
-  options.neighbors = 0;
+  OutlierOptions options;
+  options.support = 0;
   options.violatingFeatures = 1;
-  const auto accepted = AcceptedFeatures(views, OwnMaps(views), options);
+  const auto accepted = AcceptedFeatures(views, options);
   EXPECT_EQ(CountAccepted(accepted[0]), 2000u);
   EXPECT_EQ(CountAccepted(accepted[1]), 2001u);
+}
+
+// Isolated points: a radius of two mean distances has about twelve of them.
+TEST(RejectOutliers, SupportWithinARadius)
+{
+  std::vector<View> views = SheetViews(2000);
+  for (View& view : views)
+  {
+    for (std::size_t i = 0; i < view.points.size(); i += 20)
+    {
+      const Eigen::Vector3d center = view.camera.Center();
+      view.points[i] = center + (i % 40 ? 1.2 : 0.8) * (view.points[i] - center);
+    }
+  }
+  OutlierOptions options;
+  options.radius = 2;
+  options.tolerance = 0.01;
+  const auto accepted = AcceptedFeatures(views, options);
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    // The definition, by brute force.
+    const double radius = 2 * MeanSpacing(views[v]);
+    EXPECT_NEAR(radius, 2 * std::sqrt(1.0 / 2000) * 333, 4);
+    for (std::size_t i = 0; i < views[v].points.size(); ++i)
+    {
+      int support = 0;
+      for (std::size_t j = 0; j < views[v].points.size(); ++j)
+      {
+        const double a = 1 / views[v].camera.Depth(views[v].points[i]);
+        const double b = 1 / views[v].camera.Depth(views[v].points[j]);
+        support += i != j && (views[v].imagePoints[i] - views[v].imagePoints[j]).norm() <= radius &&
+          std::abs(a - b) <= 0.01 * std::max(a, b);
+      }
+      EXPECT_EQ(accepted[v][i] != 0, support >= 2) << i;
+    }
+    EXPECT_GT(CountAccepted(accepted[v]), 1800u);
+    EXPECT_LT(CountAccepted(accepted[v]), 1910u);
+  }
+  // What is left is then asked of the other views; their flags are those of all features.
+  options.seeThroughViews = 2;
+  const auto asked = AcceptedFeatures(views, options);
+  for (std::size_t v = 0; v < views.size(); ++v)
+  {
+    ASSERT_EQ(asked[v].size(), 2000u);
+    for (std::size_t i = 0; i < 2000; ++i)
+    {
+      EXPECT_LE(asked[v][i], accepted[v][i]);
+    }
+    EXPECT_GT(CountAccepted(asked[v]), 1700u);
+  }
 }
 
 TEST(RejectOutliers, ViewsKeepThreeFeatures)
 {
   std::vector<View> views = SheetViews(3);
-  EXPECT_EQ(RejectOutliers(views, OwnMaps(views), OutlierRejectionOptions())[1].points.size(), 3u);
-  EXPECT_TRUE(RejectOutliers({}, {}, OutlierRejectionOptions()).empty());
+  EXPECT_EQ(RejectOutliers(views, OutlierOptions())[1].points.size(), 3u);
+  EXPECT_TRUE(RejectOutliers({}, OutlierOptions()).empty());
 }
 
 TEST(RejectOutliers, OptionsOutOfRange)
 {
-  OutlierRejectionOptions options;
+  OutlierOptions options;
   options.noise = 0;
-  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
-  options.neighbors = -1;
-  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  options.support = -1;
+  EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
   options.violatingFeatures = -1;
-  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
   options.nearest = 0;
-  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
   options.steepestAngle = 90;
-  EXPECT_THROW(RejectOutliers({}, {}, options), Error);
+  EXPECT_THROW(RejectOutliers({}, options), Error);
+  options = {};
+  options.radius = -1;
+  EXPECT_THROW(RejectOutliers({}, options), Error);
+  options.radius = 2;
+  options.tolerance = NAN;
+  EXPECT_THROW(RejectOutliers({}, options), Error);
+  options = {};
+  options.support = 7; // of the six nearest
+  EXPECT_THROW(RejectOutliers({}, options), Error);
+  options.radius = 2;
+  EXPECT_NO_THROW(RejectOutliers({}, options));
 }
 
 TEST(UntrustedTriangles, LongOrDeepOnesGo)
 {
   const std::vector<View> views = SheetViews(300);
   const DisparityMap all = OwnMaps(views)[0];
-  LongTrianglesOptions options;
+  TrimOptions options;
   DisparityMap map = all;
-  RemoveLongTriangles(map, options);
+  TrimTriangles(map, options);
   EXPECT_EQ(map.triangles, all.triangles);
 
   options.longestEdge = 30;
   options.greatestDepth = 1.005;
-  RemoveLongTriangles(map, options);
+  TrimTriangles(map, options);
   std::size_t expected = 0;
   for (const auto& t : all.triangles)
   {
@@ -213,10 +274,10 @@ TEST(UntrustedTriangles, LongOrDeepOnesGo)
 TEST(UntrustedTriangles, OptionsOutOfRange)
 {
   DisparityMap map;
-  LongTrianglesOptions options;
+  TrimOptions options;
   options.longestEdge = -1;
-  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  EXPECT_THROW(TrimTriangles(map, options), Error);
   options = {};
   options.greatestDepth = 1;
-  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  EXPECT_THROW(TrimTriangles(map, options), Error);
 }

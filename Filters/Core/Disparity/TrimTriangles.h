@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef freespace_LongTriangles_h
-#define freespace_LongTriangles_h
+#ifndef freespace_TrimTriangles_h
+#define freespace_TrimTriangles_h
 
 #include "Common/DisparityMap.h"
 
@@ -10,7 +10,7 @@ namespace freespace
 /// Which triangles of a disparity map are too long to be believed. The free space theorem rests on
 /// features wherever the surface ends; where they are sparse, nothing says that a long triangle is
 /// the surface.
-struct LongTrianglesOptions
+struct TrimOptions
 {
   double longestEdge = 0; ///< in the image, pixels; >= 0; 0 is no limit (the paper)
   double greatestDepth =
@@ -22,7 +22,7 @@ struct LongTrianglesOptions
 };
 
 /// Takes untrusted triangles out of a map, so that the view claims no free space there. Points stay.
-void RemoveLongTriangles(DisparityMap& map, const LongTrianglesOptions& options);
+void TrimTriangles(DisparityMap& map, const TrimOptions& options);
 
 }
 
