@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/ViolatedTriangles.h"
+#include "Disparity/Outliers/ViolatedTriangles.h"
 
 #include "Support/FeatureViews.h"
 

@@ -34,8 +34,8 @@ void MakeDisparityMaps(std::vector<View> views, const DisparityMapOptions& optio
       views, options.outliers, options.disparity, parallelFor, progress.Part(0.02, 0.25));
   }
   std::optional<FeatureCloud> cloud;
-  RunWithProgress(progress.Part(0.25, 0.3),
-    [&](const CancellationFlag& stop) { cloud.emplace(views, stop); });
+  RunWithProgress(
+    progress.Part(0.25, 0.3), [&](const CancellationFlag& stop) { cloud.emplace(views, stop); });
   std::vector<DisparityMap> maps =
     TriangulateViews(views, *cloud, options.disparity, parallelFor, progress.Part(0.3, 0.65));
   views.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkFeatureSupportFilter.h"
+#include "vtkDelaunayDisparityFilter.h"
+#include "vtkOutlierFilter.h"
 
 #include "Data/ViewBlocks.h"
 #include "Support/ErrorObserver.h"
@@ -42,69 +43,99 @@ vtkSmartPointer<vtkMultiBlockDataSet> Blocks(const View& view)
   return blocks;
 }
 
-vtkPolyData* FirstBlock(vtkFeatureSupportFilter* filter)
+vtkPolyData* FirstBlock(vtkOutlierFilter* filter)
 {
   return vtkPolyData::SafeDownCast(filter->GetOutput()->GetBlock(0));
 }
 
 }
 
-TEST(FeatureSupportFilter, DropsTheOutlierWithItsPartsOfTheChain)
+TEST(OutlierFilter, DropsTheOutlierWithItsPartsOfTheChain)
 {
   const View view = RowWithAnOutlier();
-  vtkNew<vtkFeatureSupportFilter> filter;
+  vtkNew<vtkOutlierFilter> filter;
   filter->SetInputDataObject(Blocks(view));
-  filter->SetRadius(10);
-  filter->SetMinimumNeighbors(2);
+  filter->SetSupportRadius(2); // of a row, whose box is empty, one pixel
+  filter->SetSupport(1);
   ASSERT_EQ(ErrorOfUpdate(filter), "");
   vtkPolyData* output = FirstBlock(filter);
   ASSERT_EQ(output->GetNumberOfPoints(), 5);
   EXPECT_EQ(output->GetNumberOfVerts(), 5);
   EXPECT_EQ(output->GetNumberOfLines(), 3) << "0-1, 1-2 and 4-5";
-  vtkDataArray* support = output->GetPointData()->GetArray("Support");
   vtkDataArray* pixels = output->GetPointData()->GetArray("ImagePoint");
   const int kept[5] = { 0, 1, 2, 4, 5 };
   for (int i = 0; i < 5; ++i)
   {
-    EXPECT_EQ(support->GetTuple1(i), 4) << "the other four";
     EXPECT_EQ(pixels->GetComponent(i, 0), 500 + kept[i]);
     EXPECT_EQ(Eigen::Vector3d(output->GetPoint(i)), view.points[kept[i]]);
   }
   EXPECT_EQ(ViewFromBlock(output, "v").camera.K, view.camera.K);
 }
 
-TEST(FeatureSupportFilter, RadiusInPixels)
+TEST(OutlierFilter, TwoNeighboursAreMoreThanTheEndsOfARowHave)
 {
-  vtkNew<vtkFeatureSupportFilter> filter;
-  filter->SetInputDataObject(Blocks(RowWithAnOutlier()));
-  filter->SetRadius(1);
+  View view = RowWithAnOutlier();
+  view.points[3] = view.camera.Unproject({ 503, 500 }, 2);
+  vtkNew<vtkOutlierFilter> filter;
+  filter->SetInputDataObject(Blocks(view));
+  filter->SetSupportRadius(2);
+  filter->SetSupport(2);
+  ASSERT_EQ(ErrorOfUpdate(filter), "");
+  ASSERT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 4);
+  EXPECT_EQ(Eigen::Vector3d(FirstBlock(filter)->GetPoint(0)), view.points[1]);
+  filter->SetSupport(0); // keeps all
   filter->Update();
-  // Without a minimum all are kept, with their neighbours of their own depth a pixel away.
-  const int next[6] = { 1, 2, 1, 0, 1, 1 };
-  for (int i = 0; i < 6; ++i)
+  EXPECT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 6);
+}
+
+// The defaults are those of the step of vtkDelaunayDisparityFilter, with the neighbourhood of the triangulation.
+TEST(OutlierFilter, NeighboursOfTheTriangulation)
+{
+  View view = MakeView();
+  for (int i = 0; i < 49; ++i)
   {
-    EXPECT_EQ(FirstBlock(filter)->GetPointData()->GetArray("Support")->GetTuple1(i), next[i]) << i;
+    AddFeature(view, Eigen::Vector2d(400 + 20 * (i % 7), 400 + 21 * (i / 7)), i == 24 ? 1.5 : 2);
+  }
+  vtkNew<vtkOutlierFilter> filter;
+  filter->SetInputDataObject(Blocks(view));
+  ASSERT_EQ(ErrorOfUpdate(filter), "");
+  ASSERT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 48);
+  for (vtkIdType i = 0; i < 48; ++i)
+  {
+    EXPECT_EQ(Eigen::Vector3d(FirstBlock(filter)->GetPoint(i)), view.points[i < 24 ? i : i + 1]);
+  }
+  vtkNew<vtkDelaunayDisparityFilter> maps;
+  maps->SetInputDataObject(Blocks(view));
+  maps->SetFeatureSpacing(0);
+  maps->Update();
+  auto* map = vtkPolyData::SafeDownCast(maps->GetOutput()->GetBlock(0));
+  ASSERT_EQ(map->GetNumberOfPoints(), 48);
+  for (vtkIdType i = 0; i < 48; ++i)
+  {
+    EXPECT_EQ(Eigen::Vector3d(map->GetPoint(i)), view.points[i < 24 ? i : i + 1]);
   }
 }
 
-TEST(FeatureSupportFilter, FeaturesThatAreNotFiniteAreDropped)
+TEST(OutlierFilter, FeaturesThatAreNotFiniteAreDropped)
 {
   View view = RowWithAnOutlier();
-  view.points[1].x() = std::numeric_limits<double>::quiet_NaN();
-  vtkNew<vtkFeatureSupportFilter> filter;
+  view.points[0].x() = std::numeric_limits<double>::quiet_NaN();
+  vtkNew<vtkOutlierFilter> filter;
   filter->SetInputDataObject(Blocks(view));
+  filter->SetSupportRadius(2);
+  filter->SetSupport(1);
   filter->Update();
-  EXPECT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 5);
+  EXPECT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 4) << "it and the outlier go";
 }
 
-TEST(FeatureSupportFilter, BadInputIsAnError)
+TEST(OutlierFilter, BadInputIsAnError)
 {
-  vtkNew<vtkFeatureSupportFilter> filter;
+  vtkNew<vtkOutlierFilter> filter;
   filter->SetInputDataObject(Blocks(RowWithAnOutlier()));
-  filter->SetRadius(-1);
+  filter->SetSupportRadius(-1);
   EXPECT_NE(ErrorOfUpdate(filter), "");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
-  filter->SetRadius(4);
+  filter->SetSupportRadius(2);
   EXPECT_EQ(ErrorOfUpdate(filter), "");
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, vtkNew<vtkPolyData>());
@@ -114,9 +145,9 @@ TEST(FeatureSupportFilter, BadInputIsAnError)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
 }
 
-TEST(FeatureSupportFilter, NoViewsGiveNone)
+TEST(OutlierFilter, NoViewsGiveNone)
 {
-  vtkNew<vtkFeatureSupportFilter> filter;
+  vtkNew<vtkOutlierFilter> filter;
   filter->SetInputDataObject(vtkNew<vtkMultiBlockDataSet>());
   EXPECT_EQ(ErrorOfUpdate(filter), "");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Disparity/LongTriangles.h"
+#include "Disparity/TrimTriangles.h"
 
 #include "Common/Error.h"
 #include "Support/FeatureViews.h"
@@ -32,41 +32,41 @@ using Triangles = std::vector<std::array<int, 3>>;
 Triangles Left(double longestEdge, double greatestDepth)
 {
   DisparityMap map = TwoTriangles();
-  LongTrianglesOptions options;
+  TrimOptions options;
   options.longestEdge = longestEdge;
   options.greatestDepth = greatestDepth;
-  RemoveLongTriangles(map, options);
+  TrimTriangles(map, options);
   EXPECT_EQ(map.points.size(), 4u) << "points stay";
   return map.triangles;
 }
 
 }
 
-TEST(LongTriangles, ByTheLongestEdgeInTheImage)
+TEST(TrimTriangles, ByTheLongestEdgeInTheImage)
 {
   const double diagonal = 30 * std::sqrt(2.0);
   EXPECT_EQ(Left(diagonal + 0.001, 0).size(), 2u);
   EXPECT_EQ(Left(diagonal - 0.001, 0).size(), 0u) << "both have the diagonal";
 }
 
-TEST(LongTriangles, ByTheRatioOfDepths)
+TEST(TrimTriangles, ByTheRatioOfDepths)
 {
   EXPECT_EQ(Left(0, 1.501).size(), 2u);
   EXPECT_EQ(Left(0, 1.499), (Triangles{ { 0, 1, 2 } }));
 }
 
-TEST(LongTriangles, NoLimitIsThePaper)
+TEST(TrimTriangles, NoLimitIsThePaper)
 {
   EXPECT_EQ(Left(0, 0).size(), 2u);
 }
 
-TEST(LongTriangles, KeepsTheOthersInTheirOrder)
+TEST(TrimTriangles, KeepsTheOthersInTheirOrder)
 {
   std::mt19937 random(5);
   for (int trial = 0; trial < 20; ++trial)
   {
     DisparityMap map = RandomMap(random, 0);
-    LongTrianglesOptions options;
+    TrimOptions options;
     options.longestEdge = 30;
     options.greatestDepth = 1.1;
     Triangles expected;
@@ -85,30 +85,30 @@ TEST(LongTriangles, KeepsTheOthersInTheirOrder)
         expected.push_back(t);
       }
     }
-    RemoveLongTriangles(map, options);
+    TrimTriangles(map, options);
     EXPECT_EQ(map.triangles, expected);
   }
 }
 
-TEST(LongTriangles, OptionsOutOfRange)
+TEST(TrimTriangles, OptionsOutOfRange)
 {
   DisparityMap map = TwoTriangles();
-  LongTrianglesOptions options;
+  TrimOptions options;
   options.longestEdge = -1;
-  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  EXPECT_THROW(TrimTriangles(map, options), Error);
   options.longestEdge = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  EXPECT_THROW(TrimTriangles(map, options), Error);
   options.longestEdge = 0;
   options.greatestDepth = 1;
-  EXPECT_THROW(RemoveLongTriangles(map, options), Error);
+  EXPECT_THROW(TrimTriangles(map, options), Error);
   EXPECT_EQ(map.triangles.size(), 2u) << "nothing was removed";
 }
 
-TEST(LongTriangles, AnEmptyMapStaysEmpty)
+TEST(TrimTriangles, AnEmptyMapStaysEmpty)
 {
   DisparityMap map;
-  LongTrianglesOptions options;
+  TrimOptions options;
   options.longestEdge = 1;
-  RemoveLongTriangles(map, options);
+  TrimTriangles(map, options);
   EXPECT_TRUE(map.triangles.empty());
 }
