@@ -9,7 +9,6 @@ import freespace
 
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = os.environ['FREESPACE_SCENE']
-CELLS = 128  # 0 is the default; a coarse lattice is enough here
 CXX_PIPELINE = os.environ['FREESPACE_CXX_PIPELINE']
 
 
@@ -20,28 +19,50 @@ def body(file):
     return [line for line in header.split(b'\n') if not line.startswith(b'comment')], body
 
 
+def pipeline(out):
+    """Photographs to a file, all by connections and with the defaults of every class."""
+    stereo = freespace.vtkEdgeStereoReader()
+    stereo.SetFileName(SCENE)
+    maps = freespace.vtkDelaunayDisparityFilter()
+    maps.SetInputConnection(stereo.GetOutputPort())
+    surface = freespace.vtkFreespaceSurfaceFilter()
+    surface.SetInputConnection(maps.GetOutputPort())
+    writer = freespace.vtkSurfaceWriter()
+    writer.SetInputConnection(surface.GetOutputPort())
+    writer.SetFileName(out)
+    return stereo, maps, surface, writer
+
+
 class TestOnePipeline(unittest.TestCase):
     def test_python_cxx_and_program_write_the_same_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
-            names = {name: os.path.join(folder, name + '.ply') for name in ('python', 'cxx', 'program')}
-            subprocess.run([PROGRAM, '-q', 'reconstruct', SCENE, '-o', names['program'], '--cells', str(CELLS)],
-                           check=True)
-            subprocess.run([CXX_PIPELINE, SCENE, names['cxx'], str(CELLS)], check=True, stdout=subprocess.DEVNULL)
-            stereo = freespace.vtkEdgeStereoReader()
-            stereo.SetFileName(SCENE)
-            maps = freespace.vtkDelaunayDisparityFilter()
-            maps.SetInputConnection(stereo.GetOutputPort())
-            surface = freespace.vtkFreespaceSurfaceFilter()
-            surface.SetInputConnection(maps.GetOutputPort())
-            surface.SetCells(CELLS)
-            writer = freespace.vtkSurfaceWriter()
-            writer.SetInputConnection(surface.GetOutputPort())
-            writer.SetFileName(names['python'])
-            freespace.update(writer)
+            names = {name: os.path.join(folder, name + '.ply') for name in ('python', 'cxx', 'program', 'released')}
+            subprocess.run([PROGRAM, '-q', 'reconstruct', SCENE, '-o', names['program']], check=True)
+            subprocess.run([CXX_PIPELINE, SCENE, names['cxx']], check=True, stdout=subprocess.DEVNULL)
+            freespace.update(pipeline(names['python'])[-1])
             program = body(names['program'])
             self.assertGreater(len(program[1]), 1e5)
             self.assertTrue(body(names['python']) == program, 'Python and the program differ')
             self.assertTrue(body(names['cxx']) == program, 'C++ and the program differ')
+            self.check_released_data(names['released'], program)
+
+    def check_released_data(self, out, expected):
+        """Each stage lets go of its output when the next one has used it, and the file is the same."""
+        stages = pipeline(out)
+        for stage in stages[:-1]:
+            stage.ReleaseDataFlagOn()
+        freespace.update(stages[-1])
+        self.assertTrue(body(out) == expected, 'released data change the surface')
+        for stage in stages[:-1]:
+            output = stage.GetOutputDataObject(0)
+            self.assertTrue(output.GetDataReleased(), stage.GetClassName())
+            self.assertEqual(output.GetNumberOfPoints(), 0, stage.GetClassName())
+        # The writer has the surface made again from the start, which another file shows.
+        os.remove(out)
+        stages[2].SetCells(32)
+        freespace.update(stages[-1])
+        self.assertGreater(len(body(out)[1]), 1e4)
+        self.assertTrue(stages[0].GetOutputDataObject(0).GetDataReleased())
 
 
 if __name__ == '__main__':
