@@ -28,7 +28,7 @@ Photograph PhotographFromBlock(vtkImageData* image, const std::string& name)
   if (image->GetScalarType() != VTK_UNSIGNED_CHAR || (channels != 3 && channels != 4) ||
     size[0] != width || size[1] != height || size[2] != 1)
   {
-    throw Error("Photograph '" + name + "' is not an image of " + std::to_string(width) + " x " +
+    throw Error("Block '" + name + "' is not an image of " + std::to_string(width) + " x " +
       std::to_string(height) + " pixels in colour, as its camera says.");
   }
   photograph.rgb.reserve(std::size_t(3) * width * height);
@@ -55,7 +55,7 @@ std::vector<Photograph> PhotographsFromBlocks(vtkMultiBlockDataSet* blocks)
     const std::string name = BlockName(blocks, i);
     if (!image)
     {
-      throw Error("Photograph '" + name + "' is not an image.");
+      throw Error("Block '" + name + "' is not an image.");
     }
     photographs.push_back(PhotographFromBlock(image, name));
   }

@@ -9,7 +9,7 @@ class vtkMultiBlockDataSet;
 namespace freespace
 {
 
-/// The photographs of a vtkPhotographReader. Throws Error naming the block that is not an image of
+/// The images of a vtkPhotographReader. Throws Error naming the block that is not an image of
 /// three or four unsigned chars with a camera of its size.
 std::vector<Photograph> PhotographsFromBlocks(vtkMultiBlockDataSet* blocks);
 

@@ -85,7 +85,7 @@ void SetSurface(const TriangleMesh& mesh, const TextureAtlas& atlas, vtkPolyData
 }
 
 // What the surface is moved to the origin by where it lies far from it, as in UTM coordinates: charts are
-// cut and photographs rendered in single precision. No triangle's colour depends on it.
+// cut and images rendered in single precision. No triangle's colour depends on it.
 Eigen::Vector3d LocalOrigin(const TriangleMesh& mesh)
 {
   Eigen::AlignedBox3d box;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTextureBaker
- * @brief bake a texture for a surface from photographs
+ * @brief bake a texture for a surface from images
  *
  * Input: a vtkPolyData of triangles. Output port 0: the surface with texture coordinates and with the point
  * scalars "RGB", the colours of its points; points are duplicated for each chart that contains them. Output
  * port 1: the texture, a vtkImageData of three unsigned chars whose first row is v = 0.
  *
  * The surface is cut into charts, each projected along a coordinate axis, which are packed into one image.
- * Each texel is a weighted mean over all photographs that see it (by a depth map for each); the photograph
+ * Each texel is a weighted mean over all images that see it (by a depth map for each); the image
  * that views it most frontally and closely has by far the greatest weight. The weights decrease towards
- * occlusions and borders, and differences of exposure are levelled, so that neither charts nor photographs
- * leave seams. Texels that no photograph sees are filled from their surroundings in the chart, or with
+ * occlusions and borders, and differences of exposure are levelled, so that neither charts nor images
+ * leave seams. Texels that no image sees are filled from their surroundings in the chart, or with
  * UnseenColor. The texture assumes diffuse reflection, since it does not depend on the viewpoint.
  *
- * Missing photographs or an empty surface are errors; the output is then empty.
+ * Missing images or an empty surface are errors; the output is then empty.
  *
  * @sa vtkPhotographReader vtkTexturedSurfaceWriter vtkViewDependentTextureMapper
  */
@@ -50,7 +50,7 @@ public:
 
   ///@{
   /**
-   * Side of a texel in the unit of the surface. Default 0: the median footprint of the photographs' pixels
+   * Side of a texel in the unit of the surface. Default 0: the median footprint of the images' pixels
    * on the surface, or larger if the texture would exceed LargestTexture. A given size that is too small for
    * LargestTexture is an error that names the minimum.
    */
@@ -68,7 +68,7 @@ public:
 
   ///@{
   /**
-   * Exponent of the weights (confidence, incidence and resolution): how far the best photograph dominates.
+   * Exponent of the weights (confidence, incidence and resolution): how far the best image dominates.
    * Default 4.
    */
   vtkSetClampMacro(Sharpness, double, 0.0, 100.0);
@@ -77,7 +77,7 @@ public:
 
   ///@{
   /**
-   * Whether differences of exposure between photographs are levelled. Default on.
+   * Whether differences of exposure between images are levelled. Default on.
    */
   vtkSetMacro(Leveling, vtkTypeBool);
   vtkGetMacro(Leveling, vtkTypeBool);
@@ -86,7 +86,7 @@ public:
 
   ///@{
   /**
-   * Distance from an occlusion or the border of a photograph to full confidence, pixels; at least 1. Default 12.
+   * Distance from an occlusion or the border of an image to full confidence, pixels; at least 1. Default 12.
    */
   vtkSetClampMacro(Feather, double, 1.0, 1000.0);
   vtkGetMacro(Feather, double);
@@ -94,7 +94,7 @@ public:
 
   ///@{
   /**
-   * Red, green and blue, 0 to 1, of texels that no photograph sees. Default 0.7 each.
+   * Red, green and blue, 0 to 1, of texels that no image sees. Default 0.7 each.
    */
   vtkSetVector3Macro(UnseenColor, double);
   vtkGetVector3Macro(UnseenColor, double);

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkViewDependentTextureMapper
- * @brief map photographs onto a surface, depending on the viewpoint
+ * @brief map images onto a surface, depending on the viewpoint
  *
- * Figure 12 of the paper is rendered this way. Each fragment blends those photographs that see its point
- * from a direction close to that of the renderer's camera. The penalty of a photograph is the angle
+ * Figure 12 of the paper is rendered this way. Each fragment blends those images that see its point
+ * from a direction close to that of the renderer's camera. The penalty of an image is the angle
  * between the two lines of sight (as a chord of the unit sphere) plus a term for coarser pixels, divided
- * by its confidence. The BlendedViews photographs with the smallest penalties are blended with weights
+ * by its confidence. The BlendedViews images with the smallest penalties are blended with weights
  * that vanish at the penalty of the next one, so that the result is continuous (the weights of the
  * unstructured lumigraph).
  *
- * Visibility is decided by a depth map of the surface for each photograph, rendered once for each surface;
- * a photograph colours neither what is behind another part of the surface nor back faces. Confidence
- * decreases towards occlusions and the border of the photograph within Feather pixels, which hides seams.
- * Fragments that no photograph sees have UnseenColor.
+ * Visibility is decided by a depth map of the surface for each image, rendered once for each surface;
+ * an image colours neither what is behind another part of the surface nor back faces. Confidence
+ * decreases towards occlusions and the border of the image within Feather pixels, which hides seams.
+ * Fragments that no image sees have UnseenColor.
  *
- * Photographs: the output of a vtkPhotographReader. All are used if the limits of the OpenGL context,
+ * Images: the output of a vtkPhotographReader. All are used if the limits of the OpenGL context,
  * MaximumNumberOfViews and TextureMemory allow it; otherwise those that matter most for the current camera,
- * see GetNumberOfViewsInUse. Photographs larger than MaximumPhotographSize, or than the limit of the
+ * see GetNumberOfViewsInUse. Images larger than MaximumPhotographSize, or than the limit of the
  * context, are reduced. The surface is rendered unlit. Requires OpenGL 3.2.
  *
- * A block that is not a photograph is an error that names it; the surface is then rendered in UnseenColor.
+ * A block that is not an image is an error that names it; the surface is then rendered in UnseenColor.
  *
  * @sa vtkPhotographReader vtkSurfacePicture vtkTextureBaker
  *
- * @warning Photographs must have the exposure of each other: differences remain visible.
+ * @warning Images must have the exposure of each other: differences remain visible.
  */
 #ifndef vtkViewDependentTextureMapper_h
 #define vtkViewDependentTextureMapper_h
@@ -55,7 +55,7 @@ public:
 
   ///@{
   /**
-   * Number of photographs that are blended in a fragment, 1 to 8. Default 4.
+   * Number of images that are blended in a fragment, 1 to 8. Default 4.
    */
   vtkSetClampMacro(BlendedViews, int, 1, 8);
   vtkGetMacro(BlendedViews, int);
@@ -63,7 +63,7 @@ public:
 
   ///@{
   /**
-   * Distance from an occlusion or the border of a photograph to full confidence, pixels; at least 1. Default 12.
+   * Distance from an occlusion or the border of an image to full confidence, pixels; at least 1. Default 12.
    */
   vtkSetClampMacro(Feather, double, 1.0, 1000.0);
   vtkGetMacro(Feather, double);
@@ -71,7 +71,7 @@ public:
 
   ///@{
   /**
-   * Tolerance of the depth test for visibility, in footprints of the photograph's pixel at that depth. Default 6.
+   * Tolerance of the depth test for visibility, in footprints of the image's pixel at that depth. Default 6.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1000.0);
   vtkGetMacro(Tolerance, double);
@@ -88,7 +88,7 @@ public:
 
   ///@{
   /**
-   * Maximum number of photographs in the context at a time, 1 to 64. Default 64.
+   * Maximum number of images in the context at a time, 1 to 64. Default 64.
    */
   vtkSetClampMacro(MaximumNumberOfViews, int, 1, 64);
   vtkGetMacro(MaximumNumberOfViews, int);
@@ -96,7 +96,7 @@ public:
 
   ///@{
   /**
-   * Maximum side of a photograph in the context, pixels. Default 2048.
+   * Maximum side of an image in the context, pixels. Default 2048.
    */
   vtkSetClampMacro(MaximumPhotographSize, int, 16, 16384);
   vtkGetMacro(MaximumPhotographSize, int);
@@ -104,7 +104,7 @@ public:
 
   ///@{
   /**
-   * Limit of the memory for photographs and depth maps in the context, MiB. Default 1024.
+   * Limit of the memory for images and depth maps in the context, MiB. Default 1024.
    */
   vtkSetClampMacro(TextureMemory, int, 1, 1048576);
   vtkGetMacro(TextureMemory, int);
@@ -112,7 +112,7 @@ public:
 
   ///@{
   /**
-   * Red, green and blue, 0 to 1, of fragments that no photograph sees. Default 0.7 each.
+   * Red, green and blue, 0 to 1, of fragments that no image sees. Default 0.7 each.
    */
   vtkSetVector3Macro(UnseenColor, double);
   vtkGetVector3Macro(UnseenColor, double);
@@ -120,7 +120,7 @@ public:
 
   ///@{
   /**
-   * The photographs that the last rendering used, by the names of their blocks.
+   * The images that the last rendering used, by the names of their blocks.
    */
   int GetNumberOfViewsInUse();
   std::string GetViewInUse(int index);

@@ -5,7 +5,7 @@
  *
  * Input port 0: a vtkPolyData of triangles with texture coordinates; port 1: the texture, a vtkImageData of
  * unsigned chars. Both are outputs of a vtkTextureBaker. A .glb contains everything in one file, unlit
- * because the photographs contain the light; an .obj has a .mtl and a .png beside it; a .ply has colours of
+ * because the images contain the light; an .obj has a .mtl and a .png beside it; a .ply has colours of
  * points (their unsigned char scalars) instead of a texture.
  *
  * In glTF y is up. With ZUp (default on) the node of the GLB rotates z up to y up; the coordinates

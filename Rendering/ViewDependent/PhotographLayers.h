@@ -54,9 +54,9 @@ private:
   void UploadLayer(vtkOpenGLState* state, int layer, int colorUnit, int visibilityUnit);
 
   std::vector<Photograph> Photographs; // reduced to the limits
-  std::vector<VisibilityMap> Maps;     // one for each photograph
+  std::vector<VisibilityMap> Maps;     // one for each image
   std::vector<Eigen::Vector3d> Samples;
-  std::vector<int> Layers; // the photograph that each layer of the textures holds
+  std::vector<int> Layers; // the image that each layer of the textures holds
   LayeredTexture Colors;
   LayeredTexture Visibility;
   int LayerWidth = 0;

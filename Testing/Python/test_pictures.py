@@ -161,7 +161,7 @@ class TestView(WithScene):
 
     def test_photographs_in_use_are_told(self):
         log = self.succeed('view', 'scene.json', '--mesh', 'mesh.ply', '--view', 'cluster1_c', '-o', 'c.png').stderr
-        self.assertIn('colours from 5 of 5 photographs', log)
+        self.assertIn('colours from 5 of 5 images', log)
         quiet = self.succeed('--quiet', 'view', 'scene.json', '--mesh', 'mesh.ply', '--view', 'cluster1_c',
                              '-o', 'c.png')
         self.assertEqual(quiet.stderr, '')

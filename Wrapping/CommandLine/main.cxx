@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The batch program: surfaces from calibrated photographs, without a display.
+// The batch program: surfaces from calibrated images, without a display.
 #include "Commands/Commands.h"
 #include "Common/Error.h"
 #include "Files/AtomicOutput.h"
@@ -41,7 +41,7 @@ void KeepFreedMemory()
 #endif
 }
 
-// One line, whatever the names in it hold.
+// One line, even if names in it contain control characters.
 void Complain(const std::string& sentence)
 {
   std::cerr << "freespace: " << freespace::Printable(sentence) << "\n";
@@ -90,7 +90,7 @@ void DescribeProgram(CLI::App& program)
   program.allow_config_extras(CLI::config_extras_mode::error);
   program.footer("Example:\n"
                  "  freespace reconstruct scene.json -o mesh.ply --picture mesh.png\n"
-                 "'freespace COMMAND --help' tells the options of a command.");
+                 "'freespace COMMAND --help' describes the options of a command.");
 }
 
 void AddCommands(CLI::App& program, freespace::Session& session)
@@ -133,7 +133,7 @@ void LetConfigRunCommands(CLI::App& program, int argc, char* argv[])
   }
 }
 
-// What is wrong with the file of options.
+// The fault of the file of options.
 std::string ConfigFault(const std::string& config, const std::string& what)
 {
   const std::string beforeItem = "INI was not able to parse ";
@@ -168,7 +168,7 @@ std::string ConfigFile(const CLI::App& program)
   }
 }
 
-// One sentence for what is wrong with the command line, or the file of options that it names.
+// One sentence about the fault of the command line or of the file of options that it names.
 std::string Fault(
   const CLI::App& program, const CLI::ParseError& error, const std::vector<std::string>& words)
 {
@@ -212,7 +212,7 @@ std::string Fault(
 
 int Run(int argc, char* argv[])
 {
-  CLI::App program("Surfaces from calibrated photographs by feature based stereo.");
+  CLI::App program("Surfaces from calibrated images by feature based stereo.");
   freespace::Session session;
   std::string configToSave;
   DescribeProgram(program);

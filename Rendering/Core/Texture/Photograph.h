@@ -18,8 +18,8 @@ struct Photograph
   std::vector<unsigned char> rgb; ///< three for each pixel, the top row first
 };
 
-/// The photograph in fewer pixels, so that neither side is longer than `longest`; each is the mean
-/// of those it covers. The camera is changed to suit. A photograph that is small enough is returned
+/// The image in fewer pixels, so that neither side is longer than `longest`; each is the mean
+/// of those it covers. The camera is changed to suit. An image that is small enough is returned
 /// as it is.
 Photograph Reduced(const Photograph& photograph, int longest);
 

@@ -14,7 +14,7 @@ namespace freespace
 namespace
 {
 
-constexpr double LeastCosine = 0.05; // a photograph at grazing incidence is of no use
+constexpr double LeastCosine = 0.05; // an image at grazing incidence is of no use
 
 SurfaceColor::Color Interpolate(const Photograph& photograph, const Eigen::Vector2d& pixel)
 {
@@ -59,7 +59,7 @@ SurfaceColor::SurfaceColor(const TriangleMesh& mesh, std::vector<Photograph> pho
   {
     if (photograph.camera.width < 2 || photograph.camera.height < 2)
     {
-      throw Error("Photograph '" + photograph.name + "' has less than 2 x 2 pixels.");
+      throw Error("Image '" + photograph.name + "' has less than 2 x 2 pixels.");
     }
   }
   parallelFor(this->Maps.size(),
@@ -135,7 +135,7 @@ double SurfaceColor::PixelSize(const Eigen::Vector3d& point, const Eigen::Vector
 }
 
 // The gains g for which the logarithms of g_i c_i and g_j c_j agree best in the least squares, over points
-// that the photographs i and j both see; a weak prior of 1 fixes what no pair determines.
+// that the images i and j both see; a weak prior of 1 fixes what no pair determines.
 void SurfaceColor::Level(const TriangleMesh& mesh)
 {
   const std::size_t count = this->Photographs.size();

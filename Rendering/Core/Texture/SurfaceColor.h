@@ -12,10 +12,10 @@ namespace freespace
 
 struct SurfaceColorOptions
 {
-  /// How much the best photograph of a point outweighs the others: the power to which confidence,
+  /// How much the best image of a point outweighs the others: the power to which confidence,
   /// the cosine of incidence and the inverse size of a pixel on the surface are raised.
   double sharpness = 4.0;
-  /// Whether differences of exposure between photographs are evened out.
+  /// Whether differences of exposure between images are evened out.
   bool level = true;
   VisibilityOptions visibility;
 
@@ -23,8 +23,8 @@ struct SurfaceColorOptions
   void Check() const;
 };
 
-/// The colour of each point of a surface, from all photographs that see it and for no viewpoint: what a
-/// baked texture holds. Because it is a function of the point that fades one photograph into
+/// The colour of each point of a surface, from all images that see it and for no viewpoint: what a
+/// baked texture holds. Because it is a function of the point that fades one image into
 /// another, it has no seams, wherever charts are cut.
 class SurfaceColor
 {
@@ -34,13 +34,13 @@ public:
   SurfaceColor(const TriangleMesh& mesh, std::vector<Photograph> photographs,
     const SurfaceColorOptions& options = {}, const ParallelFor& parallelFor = SerialFor);
 
-  /// Nothing where no photograph sees the point from the side of the (unit) normal.
+  /// Nothing where no image sees the point from the side of the (unit) normal.
   std::optional<Color> At(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
   /// Size on the surface of the pixel that sees the point best; infinite where none does.
   double PixelSize(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
-  /// What each photograph's red, green and blue are multiplied by to level them.
+  /// What each image's red, green and blue are multiplied by to level them.
   const std::vector<Color>& Gains() const { return this->Levels; }
 
 private:

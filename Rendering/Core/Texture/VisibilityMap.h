@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// Confidence where a photograph may show the near side of an occlusion in place of the far side. Its
+/// Confidence where an image may show the near side of an occlusion in place of the far side. Its
 /// colours there are to be replaced, see FillMasked.
 constexpr float MaskedConfidence = 0.001f;
 
@@ -21,26 +21,26 @@ struct VisibilityOptions
   /// What is an occlusion and not a crease: how far the surface jumps or bends back between two
   /// pixels, in sizes of a pixel at its depth. A crease of two faces seen at 18 degrees has 6.
   double jump = 6.0;
-  /// Pixels beside an occlusion in which the far side is masked: there the photograph may show the
+  /// Pixels beside an occlusion in which the far side is masked: there the image may show the
   /// near side, because a pixel mixes both and is interpolated with its neighbours.
   double margin = 1.5;
   /// Pixels from an occlusion or the image's border to full confidence.
   double feather = 12.0;
-  /// Confidence beside an occlusion, so that a photograph is used where there is no other.
+  /// Confidence beside an occlusion, so that an image is used where there is no other.
   double least = 0.02;
 
   /// Throws Error when a value is out of its range.
   void Check() const;
 };
 
-/// What a photograph may say about a surface: which points it sees, and how far its word counts.
+/// What an image may say about a surface: which points it sees, and how far its word counts.
 struct VisibilityMap
 {
   DisparityImage disparity;
   std::vector<float> confidence; ///< per pixel, 0 to 1
   double tolerance = 0;          ///< of disparity
 
-  /// Confidence in the photograph at a point that it would show at the pixel, 0 where the surface hides
+  /// Confidence in the image at a point that it would show at the pixel, 0 where the surface hides
   /// the point or the pixel is outside. Between pixel centres both images are interpolated linearly,
   /// which is exact over a plane; but beside a masked pixel only those of the four count whose
   /// disparity is the point's, so that no point of the far side has the confidence of the near one.

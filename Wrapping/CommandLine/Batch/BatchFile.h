@@ -9,13 +9,13 @@
 namespace freespace
 {
 
-/// What is done with each scene of a batch:
+/// The steps for each scene of a batch:
 ///
 ///     { "steps": [ "reconstruct {scene} -o mesh.ply",
 ///                  ["compare", "mesh.ply", "{folder}/truth.ply", "--json", "errors.json"] ],
 ///       "table": { "F": "errors.json:/f/1" } }
 ///
-/// A step is a command of the program with its options, as a text whose words are parted by blanks or as a
+/// A step is a command of the program with its options, as a string of words separated by blanks or as a
 /// list of words. In each word {scene} stands for the scene's path, {folder} for the folder that it is in and
 /// {name} for its name; other paths are relative to the folder of the scene's results. `table`, which may be
 /// left out, names columns of the table at the end: a file of the results and a JSON pointer into it.

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Keeps other runs out of a folder, which is made where it is not there.
+/// Locks a folder against other runs; creates it if it does not exist.
 FileLock LockFolder(const std::string& folder)
 {
   std::error_code error;
@@ -50,7 +50,7 @@ std::string LastLine(const std::string& fileName)
   return last.rfind(program, 0) == 0 ? last.substr(program.size()) : last;
 }
 
-/// What a step writes, as far as its options tell.
+/// The output files of a step, as known from its options.
 std::vector<std::string> OutputsOf(const std::vector<std::string>& words)
 {
   std::vector<std::string> outputs;

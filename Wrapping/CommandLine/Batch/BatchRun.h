@@ -24,7 +24,7 @@ struct BatchOptions
   bool fresh = false;     ///< whether what an earlier run did counts for nothing
 };
 
-/// What became of a scene.
+/// The result of a scene.
 struct SceneResult
 {
   std::string name;
@@ -36,12 +36,12 @@ struct SceneResult
 };
 
 /// The steps of a batch over its scenes. Each step is a process of the program in the folder of the scene's results,
-/// which has a log of each step and the record of what was done: a later run goes on where an earlier
-/// one was stopped or killed, with the first step that has not ended well, whose words or whose scene.json
-/// changed, whose output is gone, or whose predecessor was done anew.
+/// which has a log of each step and the record of what was done: a later run continues where an earlier
+/// one was stopped or killed: with the first step that has not succeeded, whose words or scene.json changed,
+/// whose output is missing, or whose predecessor was run again.
 ///
-/// A step is started while the greatest memory that each running step has had in other scenes leaves room for its own
-/// within the limit; one that no scene has done yet runs alone.
+/// A step is started if the peak memory of the running steps and its own, as measured on other scenes, is within
+/// the limit; a step that no scene has run yet runs alone.
 class BatchRun
 {
 public:

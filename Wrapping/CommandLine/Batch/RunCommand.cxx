@@ -64,10 +64,10 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("MIB");
   command.add_option("--table", settings.table, "Write the table at the end")
     ->type_name("FILE.csv");
-  command.add_flag("--fresh", settings.options.fresh, "Do all steps, also those done before");
+  command.add_flag("--fresh", settings.options.fresh, "Run all steps, also those already done");
 }
 
-// A value in a file of the results; empty where it is not there.
+// A value in a file of the results; empty if it is missing.
 std::string ValueIn(const std::filesystem::path& folder, const BatchFile::Column& column)
 {
   try
@@ -169,7 +169,7 @@ void AddRunCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command = program.add_subcommand(
-    "run", "Do the steps of a batch with many scenes, and go on where it was stopped");
+    "run", "Run the steps of a batch over many scenes, resuming where it was stopped");
   AddOptions(*command, *settings);
   command->footer(
     "BATCH.json holds commands of this program: { \"steps\": [ \"reconstruct {scene} -o "

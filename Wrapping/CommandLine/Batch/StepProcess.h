@@ -8,7 +8,7 @@
 namespace freespace
 {
 
-/// How a process of the program ended.
+/// The result of a process of the program.
 struct StepEnd
 {
   int process = 0;
@@ -21,7 +21,7 @@ struct StepEnd
 int StartProgram(
   const std::vector<std::string>& arguments, const std::string& folder, const std::string& log);
 
-/// Whether one of the processes has ended, which it tells; returns at once.
+/// Whether one of the processes has ended, and which; does not wait.
 bool HasEnded(const std::vector<int>& processes, StepEnd& end);
 
 /// Asks processes to stop and waits for them.

@@ -28,7 +28,7 @@ struct Settings
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
-  command.add_option("images", settings.pictures, "Pictures of the board")
+  command.add_option("images", settings.pictures, "Images of the board")
     ->required()
     ->type_name("IMAGES");
   command

@@ -31,7 +31,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("scene", settings.scene, "The scene.json, or a structure-from-motion model")
     ->required()
     ->type_name("SCENE.json|MODEL");
-  command.add_option("--images", settings.images, "The folder of a model's photographs")
+  command.add_option("--images", settings.images, "The folder of a model's images")
     ->check(CLI::ExistingDirectory)
     ->type_name("IMAGES");
   command.add_option("-o,--output", settings.output, "Write the scene with these clusters")

@@ -9,7 +9,7 @@ namespace freespace
 
 class Session;
 
-/// Each adds one command of the program, with its options, its help and what it does.
+/// Each adds one command of the program, with its options, help and action.
 void AddReconstructCommand(CLI::App& program, Session& session);
 void AddSparseCommand(CLI::App& program, Session& session);
 void AddDepthCommand(CLI::App& program, Session& session);

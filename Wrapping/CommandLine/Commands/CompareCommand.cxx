@@ -52,7 +52,8 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("REFERENCE.ply");
   command
     .add_option("--distances", settings.options.limits,
-      "Distances d1,d2,... at which accuracy, completeness and F are told, in the surfaces' unit "
+      "Distances d1,d2,... at which accuracy, completeness and F are reported, in the surfaces' "
+      "unit "
       "(default: 0.1, 0.2 and 0.5 % of the reference's diagonal)")
     ->delimiter(',')
     ->allow_extra_args(false)

@@ -22,8 +22,8 @@ namespace freespace
 namespace
 {
 
-/// Lets what is written to the standard error go nowhere: OctoMap's library tells there how many nodes
-/// it writes, and knows no way to keep silent.
+/// Discards what is written to the standard error: OctoMap prints the number of nodes there and cannot be
+/// silenced otherwise.
 class SilentStandardError
 {
 public:

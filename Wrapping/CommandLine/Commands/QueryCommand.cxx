@@ -36,7 +36,7 @@ struct Settings
   UnionOptions freeSpace;
 };
 
-// Rows of so many numbers, parted by commas or blanks, perhaps below a heading.
+// Rows of this many numbers, separated by commas or blanks, with an optional header.
 std::vector<double> ReadTable(Session& session, const std::string& name, std::size_t columns)
 {
   const bool isStandardInput = name == "-";
@@ -100,20 +100,20 @@ void AddQueryCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command =
-    program.add_subcommand("query", "Ask which points and segments lie in free space");
+    program.add_subcommand("query", "Query which points and segments lie in free space");
   command->add_option("maps", settings->maps, "What 'triangulate' wrote")
     ->required()
     ->type_name("MAPS.vtm");
   auto* points = command
                    ->add_option("--points", settings->points,
-                     "Rows x,y,z; - reads the standard input; tells 1 for each that is free, 0 in "
+                     "Rows x,y,z; - reads the standard input; prints 1 for each that is free, 0 in "
                      "matter, unknown "
                      "outside of the features' hull where no view has seen it")
                    ->type_name("FILE.csv");
   auto* segments =
     command
       ->add_option("--segments", settings->segments,
-        "Rows x0,y0,z0,x1,y1,z1, or -; tells where each first leaves free space, as a "
+        "Rows x0,y0,z0,x1,y1,z1, or -; prints where each first leaves free space, as a "
         "fraction of it; inf: nowhere")
       ->type_name("FILE.csv");
   points->excludes(segments);

@@ -72,12 +72,12 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
   if (settings.densify.IsWanted())
   {
     throw Error("--densify is for a structure-from-motion model, and " + settings.scene +
-      " is none: the features of a scene.json come from its photographs anyway.");
+      " is none: the features of a scene.json come from its images anyway.");
   }
   return settings.stereo.Run(session, settings.scene);
 }
 
-// That of the photographs, unless it is very large.
+// That of the images, unless it is very large.
 std::array<int, 2> SizeLike(const Camera& camera)
 {
   constexpr double most = 2000;
@@ -114,7 +114,7 @@ void AddReconstructCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command = program.add_subcommand("reconstruct",
-    "Make a surface from photographs or a structure-from-motion model: all stages in one");
+    "Make a surface from images or a structure-from-motion model: all stages in one");
   AddOptions(*command, *settings);
   command->footer("Example:\n"
                   "  freespace reconstruct scene.json -o mesh.ply --picture mesh.png\n"

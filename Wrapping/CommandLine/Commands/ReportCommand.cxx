@@ -100,7 +100,7 @@ Scene ReadSceneForReport(const std::string& file)
   if (vtkSparseModelReader::CanReadFile(file))
   {
     throw Error(file +
-      " is a camera model without photographs: write a scene.json with its "
+      " is a camera model without images: write a scene.json with its "
       "\"model\" and \"images\", and give features of 'freespace sparse' by "
       "--features.");
   }
@@ -119,7 +119,7 @@ std::vector<std::string> ImagesOf(const Cluster& cluster)
   return images;
 }
 
-// The cameras by cluster; where the scene names none, those of all photographs in one group.
+// The cameras by cluster; where the scene names none, those of all images in one group.
 std::vector<CameraGroup> CameraGroups(const Scene& scene)
 {
   std::map<std::string, Camera> cameras;
@@ -206,7 +206,7 @@ void AddFigures(Session& session, const Settings& settings, const Surroundings& 
   vtkMultiBlockDataSet* features = settings.stages.Features();
   report.views = FeatureFigures(
     session, around.scene, features, (fs::path(figures) / "views").string(), mostViewsShown);
-  report.viewsCaption = "Each view's photograph, and over it the features that were found: edges "
+  report.viewsCaption = "Each view's image, and over it the features that were found: edges "
                         "whose depth is known, coloured by it from blue (far) to red (near) "
                         "(figure 8 of the paper).";
   if (report.views.size() < around.views.size())
@@ -288,7 +288,7 @@ std::vector<ReportCommand> Commands(const Settings& settings, const CLI::App& co
   return commands;
 }
 
-// A scene is called by its file, or by its folder where the file is called as all are.
+// The name of a scene: of its file, or of its folder if the file is called scene.json.
 std::string TitleOf(const std::string& scene)
 {
   const fs::path path = fs::absolute(scene).lexically_normal();
@@ -311,7 +311,7 @@ void AddNumbers(const Settings& settings, const Surroundings& around, Report& re
   report.summary = FormatCount(features) + " features in " + std::to_string(around.views.size()) +
     " views, and the boundary of the space that they show to be free: a surface of " +
     FormatCount(triangles) + " triangles, in the colours of " +
-    FormatCount(static_cast<long long>(cameras)) + " calibrated photographs.";
+    FormatCount(static_cast<long long>(cameras)) + " calibrated images.";
   report.facts = { { FormatCount(static_cast<long long>(cameras)), "photographs" },
     { std::to_string(around.views.size()), "views" }, { FormatCount(features), "features" },
     { FormatCount(inserted), "brought in by the constraint" },

@@ -36,8 +36,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("MESH.ply");
-  command
-    .add_option("--scene", settings.scene, "The scene, or the model, whose photographs colour it")
+  command.add_option("--scene", settings.scene, "The scene, or the model, whose images colour it")
     ->required()
     ->type_name("SCENE.json|MODEL");
   command
@@ -46,8 +45,8 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->required()
     ->type_name("MODEL.glb");
   command
-    .add_option("--texel", settings.texel,
-      "Side of a texel in the scene's unit (0: as fine as the photographs)")
+    .add_option(
+      "--texel", settings.texel, "Side of a texel in the scene's unit (0: as fine as the images)")
     ->check(NonNegative())
     ->capture_default_str();
   command.add_option("--largest", settings.largest, "Longest side of the texture, texels")
@@ -75,8 +74,7 @@ void Texture(Session& session, const Settings& settings)
   session.Run(baker, "texture");
   if (baker->GetNumberOfCharts() == 0)
   {
-    throw Error(
-      "No photograph of " + settings.scene + " sees the surface: it is of another place.");
+    throw Error("No image of " + settings.scene + " sees the surface: it is of another place.");
   }
   const int* size = baker->GetTexture()->GetDimensions();
   std::ostringstream told;

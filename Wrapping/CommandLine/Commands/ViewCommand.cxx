@@ -55,7 +55,7 @@ void AddOptions(CLI::App& command, Settings& settings)
 {
   command
     .add_option("scene", settings.scene,
-      "The scene whose photographs colour the surface, or a model with a folder images "
+      "The scene whose images colour the surface, or a model with a folder images "
       "beside it or above")
     ->required()
     ->type_name("SCENE.json|MODEL");
@@ -165,7 +165,7 @@ void TellViews(Session& session, vtkViewDependentTextureMapper* mapper, unsigned
 {
   const int inUse = mapper->GetNumberOfViewsInUse();
   session.Log("colours from " + std::to_string(inUse) + " of " + std::to_string(photographs) +
-    " photographs" + (inUse < int(photographs) ? ", the best for this camera" : ""));
+    " images" + (inUse < int(photographs) ? ", the best for this camera" : ""));
 }
 
 // Whether a folder's name is that of a film or a picture, which must be meant.
@@ -240,7 +240,7 @@ void AddViewCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command =
-    program.add_subcommand("view", "Make pictures of a surface in the colours of the photographs");
+    program.add_subcommand("view", "Make pictures of a surface in the colours of the images");
   AddOptions(*command, *settings);
   command->footer("Examples:\n"
                   "  freespace view scene.json --mesh mesh.ply -o view.png\n"

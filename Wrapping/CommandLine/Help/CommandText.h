@@ -11,7 +11,7 @@
 namespace freespace
 {
 
-/// What there is to tell about an option or a positional argument.
+/// The documentation of an option or a positional argument.
 struct OptionText
 {
   std::vector<std::string> names; ///< as one types them: -o, --output; of a positional its name
@@ -27,8 +27,8 @@ struct OptionGroupText
   std::vector<OptionText> options;
 };
 
-/// What there is to tell about the program or a command. Help, man pages and the completion of shells are
-/// all made from it.
+/// The documentation of the program or a command. Help, man pages and shell completion are all made from
+/// it.
 struct CommandText
 {
   std::string name; ///< freespace, or freespace contour
@@ -51,7 +51,7 @@ CommandText TextOf(const CLI::App& app);
 /// The text of the program and, in their order, of its commands.
 std::vector<CommandText> TextsOf(const CLI::App& program);
 
-/// The paragraphs of a text as lines of so many columns at most, the first one begun at column `begun`,
+/// The paragraphs of a text in lines of at most this many columns, the first one starting at column `begun`,
 /// all others indented. Words are not broken.
 std::string Wrapped(
   const std::string& text, std::size_t indent, std::size_t begun, std::size_t columns = 80);

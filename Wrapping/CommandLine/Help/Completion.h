@@ -7,7 +7,7 @@
 namespace freespace
 {
 
-/// What completes the program's commands, options and files in bash and zsh; TextsOf.
+/// The scripts that complete the program's commands, options and files in bash and zsh.
 std::string BashCompletion(const std::vector<CommandText>& texts);
 std::string ZshCompletion(const std::vector<CommandText>& texts);
 

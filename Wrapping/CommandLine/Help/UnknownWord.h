@@ -9,10 +9,10 @@
 namespace freespace
 {
 
-/// What to say about a command that there is not on the parsed command line; empty when there is none.
+/// The message about an unknown command on the parsed command line; empty if there is none.
 std::string UnknownCommand(const CLI::App& program);
 
-/// The same about an option.
+/// The same for an option.
 std::string UnknownOption(const CLI::App& program);
 
 }

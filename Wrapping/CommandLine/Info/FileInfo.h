@@ -14,8 +14,8 @@ namespace freespace
 
 class Session;
 
-/// What a file holds that the program reads: a surface, features or disparity maps, a scene, a camera model, a
-/// photograph. Each value is a number, a word, a list of these, or such an object. Throws Error naming the file when
+/// The content of a file that the program can read: a surface, features or disparity maps, a scene, a camera model, a
+/// image. Each value is a number, a word, a list of these, or such an object. Throws Error naming the file when
 /// it cannot be read.
 nlohmann::ordered_json InfoOf(Session& session, const std::string& fileName);
 
@@ -27,7 +27,7 @@ nlohmann::ordered_json ModelInfo(const std::string& path);
 nlohmann::ordered_json SceneInfo(const std::string& path);
 ///@}
 
-/// It as lines for people: lists of more than a few words are cut, lists of objects become tables.
+/// The same as readable lines: long lists are truncated, lists of objects become tables.
 std::string InfoText(const nlohmann::ordered_json& info);
 
 }

@@ -21,8 +21,8 @@ void AddInfoCommand(CLI::App& program, Session& session)
     std::string json;
   };
   auto settings = std::make_shared<Settings>();
-  CLI::App* command =
-    program.add_subcommand("info", "Tell what a file holds: a surface, features, a scene, a model");
+  CLI::App* command = program.add_subcommand(
+    "info", "Print what a file holds: a surface, features, a scene, a model");
   command
     ->add_option("file", settings->file,
       "A surface, features or disparity maps, a scene.json, a camera model or an image")

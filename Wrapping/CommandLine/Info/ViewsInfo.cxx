@@ -33,7 +33,7 @@ std::vector<double> DepthsOf(const View& view)
   return depths;
 }
 
-// How far each feature is seen from where its image point says, pixels.
+// Distance of each feature's projection from its image point, in pixels.
 std::vector<double> ErrorsOf(const View& view)
 {
   std::vector<double> errors;
@@ -59,7 +59,7 @@ std::vector<double> ValuesOf(vtkPolyData* block, const char* name)
 
 Json ViewsInfo(vtkMultiBlockDataSet* views)
 {
-  // Arrays of one number for each feature that tell how sure it is.
+  // Scalar arrays of the features that measure their reliability.
   const char* const qualities[] = { "MatchingCost", "DisparityDeviation", "ReprojectionError" };
   std::vector<double> depths, errors, values[3];
   Json rows = Json::array();

@@ -111,7 +111,7 @@ Surface Transformed(
   return moved;
 }
 
-// No point farther from where it was than a length.
+// Limits the displacement of points to a length.
 void LimitMoves(vtkPolyData* before, vtkPolyData* after, double length)
 {
   for (vtkIdType i = 0; i < after->GetNumberOfPoints(); ++i)
@@ -268,9 +268,9 @@ Surface ColorFromScene(Session& session, const std::string& scene, vtkPolyData* 
   auto* found = vtkUnsignedCharArray::SafeDownCast(charts->GetPointData()->GetArray("RGB"));
   if (!found)
   {
-    throw Error("No photograph of " + scene + " sees the surface: it is of another place.");
+    throw Error("No image of " + scene + " sees the surface: it is of another place.");
   }
-  // The charts have points of their own, at the places of the surface's.
+  // The charts duplicate points, at the positions of the surface's.
   vtkNew<vtkStaticPointLocator> locator;
   locator->SetDataSet(charts);
   locator->BuildLocator();

@@ -15,7 +15,7 @@ class Session;
 
 ///@{
 /// Each does one operation on a surface of triangles, with VTK's filters and this project's, and returns a new
-/// one. The value is what MeshValues.h found right. Each throws Error when it fails.
+/// one. The value has been checked by MeshValues.h. Each throws Error when it fails.
 vtkSmartPointer<vtkPolyData> Crop(Session& session, const std::string& box, vtkPolyData* surface);
 vtkSmartPointer<vtkPolyData> KeepLargest(
   Session& session, const std::string& count, vtkPolyData* surface);

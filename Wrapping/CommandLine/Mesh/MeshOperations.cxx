@@ -30,8 +30,8 @@ struct Kind
 // The numbers' ranges are those of VTK's filters.
 const std::vector<Kind>& Kinds()
 {
-  static const std::vector<Kind> kinds = { { "crop", "x0,x1,y0,y1,z0,z1",
-                                             "Cut off what is outside of a box", BoxFault, Crop },
+  static const std::vector<Kind> kinds = { { "crop", "x0,x1,y0,y1,z0,z1", "Crop to a box", BoxFault,
+                                             Crop },
     { "largest", "N", "Keep the N connected components with the most triangles", CountFault,
       KeepLargest },
     { "crumbs", "AREA", "Drop connected components of less area", NumberFault, DropCrumbs },
@@ -50,7 +50,7 @@ const std::vector<Kind>& Kinds()
     { "shift", "x,y,z", "Add a vector to the coordinates", VectorFault, Shift },
     { "normals", "", "Orient the triangles alike and add the points' normals (to .ply .obj .vtp)",
       AnyFault, AddNormals },
-    { "colour-from", "SCENE.json", "Colour the points from a scene's photographs (to .ply .vtp)",
+    { "colour-from", "SCENE.json", "Colour the points from a scene's images (to .ply .vtp)",
       AnyFault, ColorFromScene } };
   return kinds;
 }
@@ -92,7 +92,7 @@ void AddMeshOperations(CLI::App& command)
       option = command.add_flag(names, kind.help);
     }
     // A file of options would not keep the order.
-    option->group("Operations, done in the order in which they stand")->configurable(false);
+    option->group("Operations, in the order of the command line")->configurable(false);
   }
 }
 

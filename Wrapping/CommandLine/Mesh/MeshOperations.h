@@ -16,17 +16,17 @@ namespace freespace
 
 class Session;
 
-/// What is done to a surface: an option's name, without dashes, and its value.
+/// An operation on a surface: the name of an option, without dashes, and its value.
 struct MeshOperation
 {
   std::string name;
   std::string value;
 
-  /// As it stands on the command line.
+  /// As on the command line.
   std::string Text() const { return "--" + this->name + (value.empty() ? "" : " " + value); }
 };
 
-/// The operations as options of a command, each of which may stand more than once.
+/// The operations as options of a command, each of which may be repeated.
 void AddMeshOperations(CLI::App& command);
 
 /// Those that were given, in their order.

@@ -9,15 +9,15 @@
 namespace freespace
 {
 
-/// The finite numbers of a text, parted by commas; empty when it has anything else.
+/// The finite numbers of a text, separated by commas; empty if it contains anything else.
 std::vector<double> NumbersOf(const std::string& text);
 
-/// The 4 x 4 numbers of a file, row by row. Throws Error naming it when they are not there, not finite, not
+/// The 4 x 4 numbers of a file, row by row. Throws Error naming it if they are missing, not finite, not
 /// affine or not invertible.
 std::array<double, 16> ReadMatrix(const std::string& fileName);
 
 ///@{
-/// What is wrong with the value of an option; empty: nothing.
+/// The fault of an option's value; empty if it is valid.
 std::string BoxFault(const std::string& text);
 std::string VectorFault(const std::string& text);
 std::string NumberFault(const std::string& text); ///< above 0

@@ -16,8 +16,7 @@ namespace freespace
 
 class Session;
 
-/// Pictures one after the other as an Ogg Theora film, the one format for which VTK brings a writer
-/// everywhere. The file is made beside its target and renamed by Finish.
+/// A sequence of pictures as an Ogg Theora film, the only format for which every VTK has a writer. The file is made beside its target and renamed by Finish.
 class Animation
 {
 public:
@@ -31,7 +30,7 @@ public:
   /// Ends the film. Throws Error when it cannot be written, or no picture was added.
   void Finish(Session& session);
 
-  /// Whether the ending of a file's name is that of a film.
+  /// Whether a file name has the extension of a film.
   static bool CanWriteFile(const std::string& fileName);
 
 private:

@@ -7,13 +7,12 @@
 namespace freespace
 {
 
-/// A folder for what a command makes. Where the command made the folder and nothing came into it, it is
-/// taken away in the end.
+/// A folder for the output of a command. If the command created the folder and it is empty in the end, it
+/// is removed.
 class NewFolder
 {
 public:
-  /// Makes the folder and those above it. Throws Error naming it when that fails, or something else has
-  /// its name.
+  /// Creates the folder and its parents. Throws Error naming it when that fails or a file has its name.
   explicit NewFolder(const std::string& folder);
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;

@@ -15,7 +15,7 @@ class Session;
 /// Throws Error unless a picture can be written under that name.
 void CheckPictureName(const std::string& fileName);
 
-/// How a picture is taken where no camera is given; as vtkSurfacePicture.
+/// The viewpoint of a picture if no camera is given, as in vtkSurfacePicture.
 struct PictureLook
 {
   std::array<int, 2> size = { 1280, 960 }; ///< pixels

@@ -16,9 +16,9 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// Writes a contour to a .ply a piece at a time, so that only one has to be held: the file is, byte for
-/// byte, what the writer makes of the whole surface. Only points that pieces share stay in memory. The
-/// disk has to hold the surface about twice until the end.
+/// Writes a contour to a .ply piece by piece, so that only one piece is in memory: the file is, byte for
+/// byte, the one that the writer makes of the whole surface. Only points that pieces share stay in memory. Until the
+/// end the disk holds the surface about twice.
 class PieceStream
 {
 public:
@@ -29,7 +29,7 @@ public:
   /// .ply can count.
   void Add(vtkPolyData* piece);
 
-  /// Puts the file together, with a comment unless that is empty. Throws Error when the disk is full.
+  /// Assembles the file, with a comment unless that is empty. Throws Error when the disk is full.
   void Finish(const std::string& comment = "");
 
   std::int64_t NumberOfPoints() const { return this->Points; }

@@ -16,13 +16,13 @@ class Session;
 /// Reads a surface (.ply .stl .obj .vtp).
 vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fileName);
 
-/// Writes a surface; the ending of the file name chooses the format.
+/// Writes a surface; the extension of the file determines the format.
 void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName);
 
 /// Throws Error when a file's folder cannot be written: before hours of work, not after.
 void CheckOutputFolder(const std::string& fileName);
 
-/// The same, and unless the ending of a surface's file name is known.
+/// The same; also if the extension is not that of a surface.
 void CheckSurfaceName(const std::string& fileName);
 
 }

@@ -17,12 +17,12 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// A viewpoint (NovelCameras.h) from which a reconstruction shows itself well, whatever way its axes go: by the
-/// features of its disparity maps. Nothing without features.
+/// A good viewpoint (NovelCameras.h) of a reconstruction for any orientation of its axes, by the features of its
+/// disparity maps. Empty without features.
 /// Features beyond the bounds (x0, x1, y0, y1, z0, z1) of the surface do not count.
 std::optional<Camera> ViewpointOfMaps(vtkMultiBlockDataSet* maps, const double bounds[6]);
 
-/// The same by what the cameras see of a surface. Throws like ViewsOfSurface.
+/// The same by the points of a surface that the cameras see. Throws like ViewsOfSurface.
 Camera ViewpointOfCameras(
   vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const std::string& fileName);
 

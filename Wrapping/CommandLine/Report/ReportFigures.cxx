@@ -32,9 +32,9 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr int widestInPage = 900;  // of a figure, pixels
-constexpr int widestInViews = 640; // of a view's photograph
+constexpr int widestInViews = 640; // of a view's image
 
-// Some of the views whose photographs are there, evenly picked.
+// Some of the views whose image files exist, evenly chosen.
 vtkSmartPointer<vtkMultiBlockDataSet> PickViews(
   const Scene& scene, vtkMultiBlockDataSet* features, int most)
 {
@@ -139,7 +139,7 @@ std::vector<ReportView> FeatureFigures(Session& session, const Scene& scene,
     const std::string count = FormatCount(static_cast<long long>(view.points.size()));
     const int widest = figures.empty() ? widestInPage : widestInViews; // the first is shown large
     figures.push_back({ view.name, count + " features over " + view.imageFile,
-      { InlinePictureFromFile(photograph, widest), "The photograph " + view.imageFile },
+      { InlinePictureFromFile(photograph, widest), "The image " + view.imageFile },
       { InlinePictureFromFile(drawn, widest),
         count + " features over " + view.imageFile + ", blue far and red near" } });
   }
@@ -177,7 +177,7 @@ std::vector<ReportPicture> TexturedFigures(Session& session, vtkPolyData* surfac
   picture->SetMapper(mapper);
   picture->SetSamples(1); // the mapper samples edges by itself
   return Shoot(
-    session, picture, cameras, folder, "textured", "The surface in the colours of the photographs");
+    session, picture, cameras, folder, "textured", "The surface in the colours of the images");
 }
 
 }

@@ -17,7 +17,7 @@ ReportTable ViewTable(vtkMultiBlockDataSet* features, vtkMultiBlockDataSet* maps
 /// The surface: vertices, triangles, size.
 ReportTable SurfaceTable(vtkPolyData* surface);
 
-/// How long each stage took.
+/// The time of each stage.
 ReportTable TimeTable(const std::vector<StageTime>& times);
 
 /// The figures against the truth, with what they mean.

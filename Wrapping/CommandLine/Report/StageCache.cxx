@@ -25,7 +25,7 @@ const char* const stereoGroup = "Stereo";
 const char* const mapsGroup = "Disparity maps";
 const char* const surfaceGroup = "Surface";
 
-// What the features depend on: the scene, its cameras and its photographs.
+// What the features depend on: the scene, its cameras and its images.
 std::vector<std::string> SourcesOf(const Scene& scene)
 {
   std::vector<std::string> sources = { scene.file, scene.ModelFolder() };
@@ -56,7 +56,7 @@ struct Step
   bool isGiven = false;
 };
 
-// Reads what is there, or makes and notes it.
+// Reads an existing result, or computes and records it.
 StageTime TakeUpOrMake(Session& session, StageRecord& record, Step step, bool fresh,
   const std::function<void()>& read, const std::function<void()>& make)
 {

@@ -17,7 +17,7 @@ namespace freespace
 
 struct Scene;
 
-/// How long a stage took, and whether in this run.
+/// The time of a stage, and whether it was in this run.
 struct StageTime
 {
   std::string name;
@@ -25,18 +25,18 @@ struct StageTime
   std::string when; ///< "in this run", or "in an earlier run", or "given" and of unknown time
 };
 
-/// Features, disparity maps and surface of a scene in a folder, where they are made or taken up.
+/// Features, disparity maps and surface of a scene in a folder, computed or reused.
 class StageCache
 {
 public:
   /// The options of the stages, those of reconstruct, and files that take a stage's place.
   void AddOptions(CLI::App& command);
 
-  /// Reads the files that take a stage's place: what is wrong with them is told before hours of work. Throws
-  /// Error naming the file.
+  /// Reads the files that replace a stage, so that faults are reported before hours of work. Throws Error
+  /// naming the file.
   void ReadGiven(Session& session);
 
-  /// Makes what is not given and not in the folder, or older than what it is made from, or was made with other
+  /// Computes what is neither given nor in the folder, is older than its inputs, or was made with other
   /// options or by another version. Throws Error when a stage fails.
   void Run(Session& session, const Scene& scene, const std::string& folder);
 

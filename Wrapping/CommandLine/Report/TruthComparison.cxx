@@ -76,8 +76,8 @@ double MedianOrNaN(std::vector<double> values)
   return MedianOr(std::move(values), std::numeric_limits<double>::quiet_NaN());
 }
 
-// The share of points that are nearer to a surface than each limit; those that are not finite, where
-// there is nothing to be judged, have no part in it.
+// The share of points that are nearer to a surface than each limit; points that
+// are not finite are ignored.
 std::array<double, 3> SharesNear(const std::vector<Eigen::Vector3d>& points,
   const TriangleMesh& mesh, const std::array<double, 3>& limits)
 {

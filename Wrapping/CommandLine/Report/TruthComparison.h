@@ -12,8 +12,8 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// How close a surface is to the truth, where cameras see the truth and the method can know of it: rays
-/// through a lattice of each camera's pixels count whose true point lies in the convex hull of the features.
+/// How close a surface is to the truth, where cameras see the truth and the method can recover it: by the rays
+/// through a lattice of each camera's pixels whose true point lies in the convex hull of the features.
 /// Errors are along the ray, surface minus truth; distances are from points to the nearest point of the
 /// other surface.
 struct TruthFigures

@@ -31,7 +31,7 @@ struct ViewerModel
   long long triangles = 0; ///< after simplification
 };
 
-/// The surface, simplified to at most `mostTriangles`, with a texture baked from the photographs, the
+/// The surface, simplified to at most `mostTriangles`, with a texture baked from the images, the
 /// features (at most 60,000) in their colours, and the cameras. It is seen first as `first` sees it, turned
 /// around `middle`. Throws Error when a stage fails.
 ///

@@ -24,7 +24,7 @@ std::string Sentence(const std::string& text)
   return sentence;
 }
 
-// What VTK's own parts say of a failure that one of ours then tells better, with the file's name.
+// Messages of VTK about a failure that our own classes report better, with the name of the file.
 bool IsOfLittleUse(const std::string& text)
 {
   return text.find("returned failure for request") != std::string::npos ||

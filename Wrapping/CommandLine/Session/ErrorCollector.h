@@ -11,8 +11,8 @@
 namespace freespace
 {
 
-/// VTK's messages, without its file names, line numbers and addresses. Errors are kept, because a
-/// command tells the first one and ends; warnings until they are taken.
+/// Collects VTK's messages without their file names, line numbers and addresses. Errors are kept, because a
+/// command reports the first one and ends; warnings are kept until they are taken.
 class ErrorCollector : public vtkOutputWindow
 {
 public:

@@ -19,7 +19,7 @@ namespace
 
 std::atomic<int> arrived{ 0 };
 
-// Makes a signal one that is waited for, also where it was ignored, as a shell has it for its background.
+// Makes a signal one that is waited for, even if it was ignored, as in background jobs of a shell.
 void Nothing(int) {}
 
 [[noreturn]] void EndNow()
@@ -28,7 +28,7 @@ void Nothing(int) {}
   constexpr char sentence[] = "freespace: Stopped on request.\n";
   if (write(StderrCapture::RealDescriptor(), sentence, sizeof sentence - 1) < 0)
   {
-    // There is nobody left to tell.
+    // Nothing else can be done.
   }
   _exit(InterruptStatus());
 }

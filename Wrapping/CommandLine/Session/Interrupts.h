@@ -5,8 +5,8 @@
 namespace freespace
 {
 
-/// Listens to SIGINT and SIGTERM on a thread of its own from now on; before other threads begin, which
-/// inherit that they do not get these signals. A signal asks the running stage to stop. Where it has not
+/// Starts to wait for SIGINT and SIGTERM on a separate thread. Call it before other threads start, so that
+/// they inherit the signal mask. A signal asks the running stage to stop. Where it has not
 /// done so after a third of a second, or at a second signal, the process removes what it has half written
 /// and ends.
 void ListenToInterrupts();

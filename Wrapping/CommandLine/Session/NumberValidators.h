@@ -7,8 +7,8 @@
 namespace freespace
 {
 
-/// Lets a finite number of 0 or more pass. CLI11's own NonNegativeNumber takes not-a-number, and tells its
-/// limits with 309 digits.
+/// Accepts a finite number of 0 or more. CLI11's own NonNegativeNumber accepts NaN and prints its limits
+/// with 309 digits.
 CLI::Validator NonNegative();
 
 /// From `least` to `most`; unlike CLI::Range it refuses nan.

@@ -44,7 +44,7 @@ void ProgressLine::Show(double fraction)
 {
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   const int step = this->Look == Style::Bar ? 1 : 25;
-  // A filter within the stage may begin again at 0: a bar never goes back.
+  // A filter within the stage may start again at 0, but the bar never goes back.
   if (this->Look == Style::None || percent < this->Shown + step)
   {
     return;

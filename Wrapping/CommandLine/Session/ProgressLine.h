@@ -9,8 +9,8 @@
 namespace freespace
 {
 
-/// How far a stage has come, on standard error: a bar that is redrawn on a terminal, a plain line at
-/// each quarter in a log, nothing when quiet. It goes where the standard error went when the stage began.
+/// The progress of a stage on standard error: a redrawn bar on a terminal, a plain line at each quarter in
+/// a log, nothing when quiet. It goes where the standard error went when the stage began.
 class ProgressLine
 {
 public:
@@ -22,7 +22,7 @@ public:
   /// The fraction done, in [0, 1].
   void Show(double fraction);
 
-  /// The stage has ended well: tells how long it took.
+  /// The stage has succeeded: prints its time.
   void Finish();
 
 private:

@@ -13,13 +13,13 @@ class vtkPolyData;
 namespace freespace
 {
 
-/// This process's number among those that `mpiexec` started, and how many these are: 0 of 1 without
-/// mpiexec. Known from the environment, so that nothing is started up to ask.
+/// The rank of this process and the number of processes that `mpiexec` started: 0 of 1 without mpiexec.
+/// Read from the environment, so that MPI need not be initialized.
 int LaunchedRank();
 int LaunchedCount();
 
-/// The processes that share out a command's work: MPI's, when mpiexec started several. Otherwise one,
-/// without any MPI. Throws Error when there are several, but the program was built without MPI.
+/// The processes that share the work of a command: MPI's, if mpiexec started several, otherwise one without
+/// MPI. Throws Error when there are several, but the program was built without MPI.
 class Ranks
 {
 public:
@@ -31,7 +31,7 @@ public:
   int Rank() const { return this->Number; }
   int Count() const { return this->Size; }
 
-  /// Does work on every rank. When it throws on any, this throws on all: Aborted if it did anywhere,
+  /// Runs work on every rank. When it throws on any, this throws on all: Aborted if it did anywhere,
   /// else an Error with the sentence of the first rank that failed.
   void Together(const std::function<void()>& work);
 

@@ -51,8 +51,8 @@ ErrorCollector* Collector()
   return collector;
 }
 
-// Does some work with its progress shown, its errors collected and interrupts passed on. Returns what libraries
-// said meanwhile.
+// Runs some work with its progress shown, its errors collected and interrupts passed on. Returns what libraries
+// printed meanwhile.
 std::vector<std::string> DoWatched(
   vtkObject* worker, ProgressLine& line, const std::function<void()>& work)
 {
@@ -72,8 +72,8 @@ std::vector<std::string> DoWatched(
 void Session::AddOptions(CLI::App& program)
 {
   program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
-  program.add_flag(
-    "--strict", this->Strict, "Every warning is an error: nothing is written of what it was about");
+  program.add_flag("--strict", this->Strict,
+    "Treat every warning as an error: the output that it concerns is not written");
   program.add_option("--threads", this->Threads, "Threads to use; 0: all cores")
     ->check(CLI::Range(0, 1024))
     ->capture_default_str();

@@ -15,43 +15,43 @@ class vtkWriter;
 namespace freespace
 {
 
-/// What all commands share: the options --quiet, --threads and --strict, and running VTK algorithms so that
+/// The common part of all commands: the options --quiet, --threads and --strict, and running VTK algorithms so that
 /// their progress is shown, their errors become one sentence and an interrupt stops them cleanly. Warnings
-/// are told where they arise and again at the end of the run; --strict makes an error of the first one,
-/// before the command writes what it was made of.
+/// are reported when they arise and again at the end of the run; --strict turns the first one into an error,
+/// before the command writes its output.
 class Session
 {
 public:
   /// Adds the shared options to the program.
   void AddOptions(CLI::App& program);
 
-  /// Which processes do a command's work when mpiexec started several.
+  /// Which processes run a command if mpiexec started several.
   enum class Sharing
   {
     FirstProcess,
     AllProcesses ///< they share it out, see Ranks
   };
 
-  /// What a command does, to be done once the command line and the config file are read whole: CLI11
+  /// The action of a command, to be run after the command line and the whole config file are read: CLI11
   /// calls back for a section of the config file before it has read the rest.
   std::function<void()> Defer(
     std::function<void()> action, Sharing sharing = Sharing::FirstProcess);
 
-  /// Does what the command was to do.
+  /// Runs the action of the command.
   void RunCommand();
 
   /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
   /// first error said.
   void Run(vtkAlgorithm* algorithm, const std::string& stage, int piece = 0, int pieces = 1);
 
-  /// Does some work of an algorithm, or of a vtkFreespaceUnion, under a stage's name: its progress is
+  /// Runs some work of an algorithm, or of a vtkFreespaceUnion, under a stage's name: its progress is
   /// shown, and an interrupt sets its AbortExecute. Throws Error like Run.
   void Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work);
 
   /// Runs a writer. Throws Error like Run.
   void Write(vtkWriter* writer);
 
-  /// Tells the warnings and throws Error with the first VTK error since the last stage began, if there was
+  /// Reports the warnings and throws Error with the first VTK error since the last stage began, if there was
   /// one.
   void ThrowIfFailed();
 

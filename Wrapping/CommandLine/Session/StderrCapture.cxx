@@ -17,7 +17,7 @@ namespace
 int standardError = -1; // as it was; -1: there is nothing to keep
 int kept = -1;
 
-// What is kept, a piece at a time from the beginning; fit for a signal's handler.
+// Writes the captured text piece by piece; safe in a signal handler.
 template <typename Visit>
 void ForEachPiece(const Visit& visit)
 {

@@ -8,9 +8,9 @@
 namespace freespace
 {
 
-/// Keeps from the standard error, while it lives, what libraries write there by themselves: those that read
-/// pictures do, beside telling the caller that they failed. Where the process is aborted it is written after
-/// all. There may be one at a time.
+/// Captures, during its lifetime, what libraries write to the standard error: image libraries do, in addition
+/// to returning an error. If the process is aborted, the captured text is written. Only one may exist at a
+/// time.
 class StderrCapture
 {
 public:

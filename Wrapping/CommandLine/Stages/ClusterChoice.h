@@ -13,8 +13,8 @@ class vtkClusterProposal;
 namespace freespace
 {
 
-/// The options by which clusters are chosen, for every command that may have to: `clusters`, and those that
-/// find features in the photographs of a scene or model that names none.
+/// The options of the choice of clusters, for every command that may need it: `clusters`, and those that
+/// find features in the images of a scene or model that names none.
 class ClusterChoice
 {
 public:

@@ -29,10 +29,10 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
 
-  /// What makes it of the maps.
+  /// The filters that make it from the maps.
   vtkSmartPointer<vtkBisectionContourFilter> MakeFilter(vtkMultiBlockDataSet* maps) const;
 
-  /// Chooses the region and the lattice, and tells them in a line.
+  /// Chooses the region and the lattice, and logs them in a line.
   void Choose(Session& session, vtkBisectionContourFilter* contour) const;
 
   /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do

@@ -22,7 +22,7 @@ namespace freespace
 namespace
 {
 
-// A folder for the scene.json that stands between the choice of clusters and the stereo.
+// A folder for the scene.json between the choice of clusters and the stereo.
 class ScratchFolder
 {
 public:
@@ -41,7 +41,7 @@ private:
   WorkFolder Folder;
 };
 
-// Whether any of the model's photographs is there.
+// Whether any of the model's image files exists.
 bool HasPhotographs(Session& session, const std::string& model, const std::string& images)
 {
   vtkNew<vtkCameraReader> cameras;
@@ -64,7 +64,7 @@ void DensifyStage::AddOptions(CLI::App& command)
 {
   command
     .add_option("--densify", this->Images,
-      "The folder of the model's photographs: add what edge stereo finds in them")
+      "The folder of the model's images: add what edge stereo finds in them")
     ->check(CLI::ExistingDirectory)
     ->type_name("IMAGES")
     ->group("Structure-from-motion model");
@@ -75,8 +75,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const 
 {
   if (!HasPhotographs(session, model, this->Images))
   {
-    throw Error("Cannot densify: the folder " + this->Images + " has none of the photographs of " +
-      model + ".");
+    throw Error(
+      "Cannot densify: the folder " + this->Images + " has none of the images of " + model + ".");
   }
   const ScratchFolder scratch;
   vtkNew<vtkClusterProposal> proposal;
@@ -90,7 +90,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> DensifyStage::Run(Session& session, const 
   }
   catch (const Error& error)
   {
-    // The model and the folder have been read before: its photographs do not suit.
+    // The model and the folder have been read before: its images cannot be used.
     session.Warn(std::string("Nothing is added by --densify. ") + error.what());
     return sparse;
   }

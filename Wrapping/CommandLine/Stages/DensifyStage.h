@@ -17,7 +17,7 @@ class Session;
 class StereoStage;
 
 /// Features of a structure-from-motion model -> the same with those that edge stereo finds in the
-/// photographs at the model's own poses: vtkClusterProposal, vtkEdgeStereoReader, vtkMergeViewsFilter.
+/// images at the model's own poses: vtkClusterProposal, vtkEdgeStereoReader, vtkMergeViewsFilter.
 /// Like the other stages (Stages.h).
 class DensifyStage
 {

@@ -98,7 +98,8 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Disparity maps");
   command
-    .add_flag("--keep-edges", this->KeepEdges, "No triangle crosses an edge that the stereo saw")
+    .add_flag(
+      "--keep-edges", this->KeepEdges, "Triangles do not cross the edges that the stereo found")
     ->group("Disparity maps");
   command
     .add_option("--background", this->Background,
@@ -109,7 +110,7 @@ void TriangulateStage::AddOptions(CLI::App& command)
     ->group("Disparity maps");
   command
     .add_option("--background-views", this->BackgroundViews,
-      "Number of other views that tell where the background continues; 0: all")
+      "Number of other views that are used to continue the background; 0: all")
     ->check(CLI::Range(0, 1000000))
     ->capture_default_str()
     ->group("Disparity maps");

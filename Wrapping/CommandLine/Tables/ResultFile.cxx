@@ -32,7 +32,7 @@ void WriteResult(const std::string& fileName, const std::string& text)
 
 void WriteResult(const std::string& fileName, const nlohmann::ordered_json& results)
 {
-  // Names of files may be no UTF-8, which JSON has to be.
+  // File names need not be valid UTF-8, but JSON must be.
   using Handler = nlohmann::ordered_json::error_handler_t;
   WriteResult(fileName, results.dump(2, ' ', false, Handler::replace) + "\n");
 }

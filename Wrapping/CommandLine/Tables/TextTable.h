@@ -25,7 +25,7 @@ private:
 /// A word as a cell of comma-separated values (RFC 4180): quoted where it has to be.
 std::string CsvCell(const std::string& word);
 
-/// A number with so many significant digits, without trailing zeros.
+/// A number with this many significant digits, without trailing zeros.
 std::string NumberText(double number, int digits = 4);
 
 }

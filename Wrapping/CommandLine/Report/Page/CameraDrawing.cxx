@@ -115,7 +115,7 @@ std::vector<Eigen::Vector3d> Sample(const std::vector<Eigen::Vector3d>& points)
   return sample;
 }
 
-// The box of the cameras, and of all points but the few that are far off.
+// The box of the cameras and of all points but the few distant ones.
 Eigen::AlignedBox2d BoxOf(
   const std::vector<Pyramid>& pyramids, const std::vector<Eigen::Vector2d>& points)
 {

@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// Cameras that worked together: drawn in one colour.
+/// The cameras of a cluster, drawn in one colour.
 struct CameraGroup
 {
   std::string name;

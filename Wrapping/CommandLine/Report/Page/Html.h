@@ -13,7 +13,7 @@ namespace freespace
 std::string EscapeHtml(const std::string& text);
 
 /// The template with each {{name}} replaced by its part, which is markup and taken as it is. Throws Error
-/// when the template names a part that there is not, or a part has no place.
+/// if the template names an unknown part, or a part has no placeholder.
 std::string FillTemplate(const std::string& text, const std::map<std::string, std::string>& parts);
 
 }

@@ -26,7 +26,7 @@ struct ReportPicture
   std::string alt; ///< what is seen, for those who do not see it
 };
 
-/// A view's photograph and its features over it.
+/// A view's image and its features over it.
 struct ReportView
 {
   std::string name;
@@ -51,7 +51,7 @@ struct ReportCommand
   std::string line; ///< as one gives it to a shell
 };
 
-/// What the page tells.
+/// The content of the page.
 struct Report
 {
   std::string title;
@@ -72,13 +72,13 @@ struct Report
   std::string footer;
 };
 
-/// The page, which needs nothing but itself: style, pictures and scripts are in it.
+/// The page, self-contained: style, pictures and scripts are embedded.
 std::string WriteReportPage(const Report& report);
 
 /// "12,345".
 std::string FormatCount(long long count);
 
-/// Three significant digits, with a letter for the power of ten never.
+/// Three significant digits, without an exponent.
 std::string FormatNumber(double value);
 
 /// "97.2 %" of a share of 1.

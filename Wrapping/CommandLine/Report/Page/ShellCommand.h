@@ -8,11 +8,10 @@
 namespace freespace
 {
 
-/// A word as a POSIX shell wants it: as it is where nothing in it means anything to the shell, else
-/// between single quotes.
+/// A word quoted for a POSIX shell: unchanged if it has no special characters, else in single quotes.
 std::string QuoteForShell(const std::string& word);
 
-/// Words of a command, each quoted where need be.
+/// The words of a command, quoted where necessary.
 std::string ShellCommand(const std::vector<std::string>& words);
 
 }

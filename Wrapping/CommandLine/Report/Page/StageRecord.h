@@ -10,12 +10,12 @@
 namespace freespace
 {
 
-/// What a folder's files were made with, so that a later run can take them up: for each stage its options
-/// and how long it took. It lies beside them as a JSON file.
+/// A record of how the files of a folder were made, so that a later run can reuse them: for each stage its
+/// options and its time. It is a JSON file in the folder.
 class StageRecord
 {
 public:
-  /// Reads the record. A file that is not there or no record is an empty one: then all is made anew.
+  /// Reads the record. A missing or invalid file is an empty record: everything is then recomputed.
   explicit StageRecord(const std::string& file);
 
   /// Whether a stage's output was made with these options and is as new as all of its inputs. An input
