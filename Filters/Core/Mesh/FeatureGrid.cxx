@@ -37,6 +37,10 @@ FeatureGrid::FeatureGrid(const std::vector<Vector3d>& points, double reach)
   }
   // A cell begins one side below, so that no place near a feature has a lower one.
   this->Side = std::max(this->Side, 1e-6 * box.sizes().maxCoeff());
+  if (this->Side == 0)
+  {
+    this->Side = 1; // all points coincide: any cell will do
+  }
   this->Origin = box.min() - Vector3d::Constant(this->Side);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   for (const Vector3d& point : this->Points)
