@@ -92,7 +92,8 @@ TEST(ContourOctree, FindsEveryCellThatTheSurfacePasses)
 
 TEST(ContourOctree, OfAFieldThatClassifiesNoBox)
 {
-  ContourOctree octree(Ball(), Cube(1.3), Cells(30));
+  const Ball ball; // the octree keeps a reference
+  ContourOctree octree(ball, Cube(1.3), Cells(30));
   Find(octree);
   EXPECT_EQ(FoundCells(octree), AllCells(octree));
 }
@@ -119,8 +120,9 @@ TEST(ContourOctree, PiecesPartitionTheCells)
 
 TEST(ContourOctree, NothingPassesAnEmptyBox)
 {
+  const Ball ball;
   ContourOctree octree(
-    Ball(), Eigen::AlignedBox3d(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6)), Cells(10));
+    ball, Eigen::AlignedBox3d(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6)), Cells(10));
   Find(octree);
   EXPECT_TRUE(FoundCells(octree).empty());
 }
