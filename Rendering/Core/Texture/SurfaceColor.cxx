@@ -175,7 +175,7 @@ void SurfaceColor::Level(const TriangleMesh& mesh)
           }
           const std::size_t i = seen[p].first;
           const std::size_t j = seen[q].first;
-          // Pairs that differ much are of two surfaces or a reflection: they count little.
+          // Pairs that differ much are of two surfaces or a reflection: they have little weight.
           const double difference = std::log(second / first);
           const double weight = 1 / (1 + 25 * difference * difference);
           systems[channel](i, i) += weight;

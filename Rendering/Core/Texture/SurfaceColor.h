@@ -15,7 +15,7 @@ struct SurfaceColorOptions
   /// How much the best image of a point outweighs the others: the power to which confidence,
   /// the cosine of incidence and the inverse size of a pixel on the surface are raised.
   double sharpness = 4.0;
-  /// Whether differences of exposure between images are evened out.
+  /// Whether differences of exposure between images are compensated.
   bool level = true;
   VisibilityOptions visibility;
 
@@ -40,7 +40,7 @@ public:
   /// Size on the surface of the pixel that sees the point best; infinite where none does.
   double PixelSize(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
-  /// What each image's red, green and blue are multiplied by to level them.
+  /// The gains of each image's red, green and blue that compensate for its exposure.
   const std::vector<Color>& Gains() const { return this->Levels; }
 
 private:

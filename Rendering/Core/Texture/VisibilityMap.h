@@ -33,7 +33,7 @@ struct VisibilityOptions
   void Check() const;
 };
 
-/// What an image may say about a surface: which points it sees, and how far its word counts.
+/// What an image shows of a surface: which points it sees, and with which confidence.
 struct VisibilityMap
 {
   DisparityImage disparity;

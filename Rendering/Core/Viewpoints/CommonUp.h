@@ -9,12 +9,12 @@
 namespace freespace
 {
 
-/// Where cameras have up in the world, of length 1: the direction from which it is likeliest that people
-/// held the cameras as they did. Most hold a camera upright to within some degrees, some on its side,
-/// few upside down or anyhow, and the more a camera looks along up the less its roll tells. What is the
-/// mean of the images' up where these agree is found as well for a ring of cameras that look down
-/// steeply, or where some were held on their side. Cameras that are all turned alike say where up is in their
-/// images only: then it is across the lines of sight. Zero without cameras.
+/// The up direction of the world, a unit vector: the maximum likelihood estimate from the rolls of the
+/// cameras. Most people hold a camera upright to within some degrees, some on its side, few in other ways, and
+/// the roll of a camera that looks along up is undetermined. Where the up vectors of the images agree the
+/// result is their mean; it also works for a ring of cameras that look down steeply, or if some were held on
+/// their side. If all cameras have the same orientation, up is perpendicular to the line of sight. Zero without
+/// cameras.
 Eigen::Vector3d CommonUp(const std::vector<Camera>& cameras);
 
 }

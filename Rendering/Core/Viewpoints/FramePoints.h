@@ -15,8 +15,8 @@ enum class Outliers
   NotHeeded ///< what lies far beyond the most of the points may be cut off by the picture's border
 };
 
-/// A camera moved, and not turned, to the nearest place from which its picture holds all points in its middle,
-/// with a margin of 2 % on each side. Points that are not finite do not count; without any the camera stays.
+/// A camera translated, not rotated, to the nearest position from which its image shows all points, centred,
+/// with a margin of 2 % on each side. Points that are not finite are ignored; without any the camera is unchanged.
 Camera FramePoints(const Camera& camera, const std::vector<Eigen::Vector3d>& points,
   Outliers outliers = Outliers::InFrame);
 

@@ -10,7 +10,7 @@
 namespace freespace
 {
 
-/// The points of a surface that a camera sees, about: by a depth buffer that is coarser than its pictures.
+/// The points of a surface that a camera sees, approximately: by a depth buffer coarser than its image.
 std::vector<Eigen::Vector3d> VisiblePoints(const TriangleMesh& mesh, const Camera& camera);
 
 }

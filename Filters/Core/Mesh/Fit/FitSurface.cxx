@@ -23,10 +23,10 @@ namespace
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-// A feature looks at the surface no flatter than this cosine, as far as its deviation goes.
+// Lower bound of the cosine of incidence in the deviation of a feature.
 constexpr double LeastCosine = 0.15;
 
-// What features say of their deviation is believed so far, in units of the typical one.
+// Bounds of the deviations of features, in units of the typical one.
 constexpr double LeastDeviation = 0.2;
 constexpr double MostDeviation = 10;
 
@@ -37,7 +37,7 @@ constexpr double DeviationOfMedian = 1.5;
 // planes do that turn by 26 degrees.
 constexpr double LeastShare = 0.05;
 
-// A vertex is drawn to where it is as if known to so many median edges.
+// Standard deviation of the prior that holds a vertex at its position, in median edges.
 constexpr double AnchorEdges = 1.0;
 
 constexpr double SolverTolerance = 1e-2;
@@ -120,7 +120,7 @@ double SurfaceFitter::FindTypicalDeviation() const
   return MedianOr(std::move(known), 0.0);
 }
 
-// In units of the typical one, which a feature has about which nothing is known.
+// In units of the typical one, which is assumed for a feature of unknown deviation.
 double SurfaceFitter::RelativeDeviation(const SeenFeature& feature) const
 {
   return feature.deviation > 0
@@ -216,7 +216,7 @@ std::vector<VertexSystem::Basis> SurfaceFitter::FindBases() const
 
 void SurfaceFitter::AddNormals(VertexSystem& system) const
 {
-  // Small triangles say little, very short edges nothing.
+  // Small triangles have little weight, very short edges none.
   const double shortest = 0.3 * this->MedianEdge;
   const double typicalArea = 0.4 * this->MedianEdge * this->MedianEdge;
   for (std::size_t t = 0; t < this->Corners.size(); ++t)

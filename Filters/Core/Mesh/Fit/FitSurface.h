@@ -15,7 +15,7 @@
 namespace freespace
 {
 
-/// How a surface is fitted to features.
+/// Options of the fit of a surface to features.
 struct FitSurfaceOptions
 {
   int rounds = 2;              ///< of smoothing normals and moving vertices; >= 0, 0 fits nothing
@@ -23,15 +23,15 @@ struct FitSurfaceOptions
   double waviness = 0.05; ///< standard deviation of the slope of a triangle's edges against its
                           ///< smoothed normal, radians; > 0
   double reach =
-    4e-3; ///< features further off the surface are of another one, fraction of depth; > 0
-  double mostMove = 1;   ///< a vertex moves so far from where it was, in median edges; > 0
+    4e-3; ///< features farther from the surface belong to another one, fraction of depth; > 0
+  double mostMove = 1;   ///< maximum displacement of a vertex, in median edges; > 0
   bool isSingle = false; ///< points are to be exact in single precision
 
   /// Throws Error when a field is out of its range.
   void Check() const;
 };
 
-/// What a surface is fitted to: a feature as its view sees it.
+/// A feature together with its line of sight.
 struct SeenFeature
 {
   Eigen::Vector3d point;
@@ -39,20 +39,20 @@ struct SeenFeature
   double deviation = 0;  ///< standard deviation of its depth, as a fraction of it; 0: not known
 };
 
-/// Moves the vertices of a surface to where the features say, as one, that it is. A disparity map
-/// interpolates the noise of each feature, and the union of many follows the deepest; here every feature
-/// counts, and the normals of the surface are smooth but for sharp edges. In each round
-/// - the normals of the triangles are smoothed over all but sharp edges, see FilterNormals;
-/// - each feature is given the nearest place of the surface that faces it. Its deviation is across the
-///   surface: that of depth where it looks at it straight on, a pixel's where it looks along it. How large
-///   deviations are is learned from how far the features are off, and outliers weigh less (Cauchy);
-/// - the vertices move so that edges keep to the triangles' smoothed normals and the surface to its
-///   features, in the sense of least squares: along the normal where the surface is smooth, in a plane at
-///   an edge, freely at a corner.
+/// Fits the vertices of a surface to the features of all views. A disparity map interpolates the noise of
+/// each feature, and the union of many follows the deepest one; here all features are used, and the normals
+/// of the surface are smooth except at sharp edges. In each round
+/// - the normals of the triangles are smoothed, except across sharp edges, see FilterNormals;
+/// - each feature is assigned to the nearest point of the surface that faces it. Its deviation is measured
+///   across the surface: that of the depth for a frontal view, that of a pixel for a grazing one. The scale
+///   of the deviations is estimated from the residuals, and outliers have less weight (Cauchy);
+/// - the vertices are moved by least squares, so that edges are perpendicular to the smoothed normals of
+///   their triangles and the surface is close to its features: along the normal where the surface is
+///   smooth, in a plane at an edge, freely at a corner.
 ///
-/// Triangles stay as they are. No vertex moves further than `mostMove`, and where the surface would meet
-/// itself, vertices go back towards where they were until it does not, if it did not before. The same for
-/// any number of threads. Throws Aborted when the progress wants to stop.
+/// The triangles are unchanged. No vertex moves further than `mostMove`, and where the surface would
+/// intersect itself, vertices are moved back towards their initial positions until it does not, unless it did
+/// before. The same for any number of threads. Throws Aborted when the progress requests it.
 void FitSurface(std::vector<Eigen::Vector3d>& points,
   const std::vector<std::array<std::int32_t, 3>>& triangles,
   const std::vector<SeenFeature>& features, const FitSurfaceOptions& options,

@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// The edges of a triangle mesh, and what lies beside them.
+/// The edges of a triangle mesh and the triangles beside them.
 struct MeshEdges
 {
   /// Of `count` vertices. An edge of more than two triangles has no opposite ones. O(n).

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Normals that guide the filter are smoothed so often, with a deviation that is so much wider.
+// Iterations of the smoothing of the guide normals, and the factor of its deviation.
 constexpr int GuideIterations = 2;
 constexpr double GuideWidth = 2;
 
@@ -26,7 +26,7 @@ double MixingWeight(const Vector3d& a, const Vector3d& b, double deviation)
   return x > 0 ? x * x * x : 0.0;
 }
 
-// Mixes each normal with its neighbours', by how alike their guides are.
+// Averages each normal with its neighbours', weighted by the similarity of their guides.
 void MixOnce(const std::vector<Vector3d>& normals, const std::vector<Vector3d>& guides,
   const std::vector<double>& areas, const MeshEdges& edges, double deviation,
   std::vector<Vector3d>& mixed, const ParallelFor& parallelFor)
@@ -92,7 +92,7 @@ void FilterNormals(std::vector<Vector3d>& normals, const std::vector<double>& ar
   for (int i = 0; i < options.iterations; ++i)
   {
     guides = normals;
-    // Later on there is no noise that they would have to be freed of.
+    // Later rounds have little noise left: the normals are their own guides.
     for (int j = 0; j < GuideIterations && 2 * i < options.iterations; ++j)
     {
       MixOnce(guides, guides, areas, edges, GuideWidth * options.deviation, mixed, parallelFor);

@@ -14,7 +14,7 @@
 namespace freespace
 {
 
-/// How the normals of a mesh are smoothed.
+/// Options of the smoothing of normals.
 struct NormalFilterOptions
 {
   int iterations = 14; ///< each mixes a triangle's normal with those beside it; >= 0
@@ -31,10 +31,10 @@ void TriangleNormals(const std::vector<Eigen::Vector3d>& points,
   const std::vector<std::array<std::int32_t, 3>>& triangles, std::vector<Eigen::Vector3d>& normals,
   std::vector<double>& areas, const ParallelFor& parallelFor = SerialFor);
 
-/// Smooths the normals of a mesh, but not over its sharp edges: bilateral filtering in the manner of
-/// Zheng, Fu, Au and Tai, "Bilateral Normal Filtering for Mesh Denoising" (TVCG 2011). How much two
-/// neighbours mix follows from the difference of normals that are smoothed once more (a joint bilateral
-/// filter), which noise of single triangles does not reach.
+/// Smooths the normals of a mesh, except across its sharp edges: bilateral filtering in the manner of
+/// Zheng, Fu, Au and Tai, "Bilateral Normal Filtering for Mesh Denoising" (TVCG 2011). The
+/// weight of a neighbour depends on the difference of guide normals that are smoothed once more (a joint
+/// bilateral filter) and therefore little affected by the noise of single triangles.
 void FilterNormals(std::vector<Eigen::Vector3d>& normals, const std::vector<double>& areas,
   const MeshEdges& edges, const NormalFilterOptions& options,
   const ParallelFor& parallelFor = SerialFor);

@@ -13,15 +13,14 @@
 namespace freespace
 {
 
-/// A place on a triangle: the weights of its corners.
+/// A point on a triangle, by the barycentric weights of its corners.
 struct TrianglePlace
 {
   int triangle = -1; ///< -1: none
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();
 };
 
-/// The triangles of a mesh, found by where they are: in the cells of a grid. Keeps references to both
-/// arrays.
+/// A spatial index of the triangles of a mesh: a hashed grid. Keeps references to both arrays.
 class TriangleGrid
 {
 public:
@@ -30,7 +29,7 @@ public:
   /// Cells should be somewhat larger than the triangles. O(n log n).
   TriangleGrid(const std::vector<Eigen::Vector3d>& points, const Triangles& triangles, double cell);
 
-  /// The nearest place within a reach on the triangles that face an eye which looks along a direction.
+  /// The nearest point within a reach on the triangles that face an eye looking along a direction.
   TrianglePlace Nearest(
     const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach) const;
 

@@ -18,7 +18,7 @@ namespace
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-// A vertex goes back by halves, at last to where it was.
+// A vertex is moved back by halves, finally to its previous position.
 constexpr double LeastShare = 0.2;
 
 class Untangler
@@ -67,7 +67,7 @@ void Untangler::Place(std::size_t v)
   }
 }
 
-// Whether all corners of b are beyond the plane of a, or beyond one of its sides: then they do not meet.
+// Whether all corners of b are beyond the plane of a, or beyond one of its sides: then they do not intersect.
 bool Untangler::IsBeside(const Vector3d* a, const Vector3d* b) const
 {
   const Vector3d normal = (a[1] - a[0]).cross(a[2] - a[0]);

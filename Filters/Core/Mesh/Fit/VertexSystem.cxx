@@ -85,7 +85,7 @@ void VertexSystem::AddPlace(const std::array<std::int32_t, 3>& corners,
   }
 }
 
-// What each vertex is joined to; where the links of each begin.
+// The neighbours of each vertex, and the beginning of each list.
 std::vector<std::size_t> VertexSystem::LinkVertices(std::vector<Link>& links) const
 {
   std::vector<std::size_t> begin(this->Bases.size() + 2, 0);

@@ -28,7 +28,7 @@ public:
     Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
   };
 
-  /// Keeps references to both. Each vertex is drawn to where it is with the weight `anchor`, > 0.
+  /// Keeps references to both. Each vertex is held at its position with the weight `anchor`, > 0.
   VertexSystem(const std::vector<Basis>& bases, const MeshEdges& edges, double anchor);
 
   /// Adds weight * (normal . (displacement of the first end - that of the second) + residual)^2.
@@ -39,8 +39,8 @@ public:
     const std::array<std::int32_t, 3>& edgesOfTriangle, const Eigen::Vector3d& mix,
     const Eigen::Vector3d& normal, double residual, double weight);
 
-  /// The displacements that make the sum least, by conjugate gradients, until the residual has fallen to
-  /// so much of what it was, or so many iterations. The same for any number of threads.
+  /// The displacements that minimize the sum, by conjugate gradients, until the residual has fallen to this
+  /// fraction of its initial value, or for this number of iterations. The same for any number of threads.
   std::vector<Eigen::Vector3d> Solve(double tolerance, int iterations,
     const ParallelFor& parallelFor, const CancellationFlag& stop = NeverCancelled);
 
