@@ -84,6 +84,10 @@ vtkBoardCalibration::vtkBoardCalibration()
   : Calibrated(std::make_unique<Result>())
 {
   this->SetNumberOfInputPorts(0);
+  const freespace::BoardCalibrationOptions options;
+  this->MaximumCoefficients = options.maximumCoefficients;
+  this->SquarePixels = options.squarePixels;
+  this->MinimumCorners = options.minimumCorners;
 }
 
 vtkBoardCalibration::~vtkBoardCalibration() = default;

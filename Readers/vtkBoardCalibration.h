@@ -122,9 +122,10 @@ protected:
 
   std::vector<std::string> FileNames;
   std::string Board;
-  int MaximumCoefficients = 5;
-  vtkTypeBool SquarePixels = 1;
-  int MinimumCorners = 8;
+  // Defaults are those of freespace::BoardCalibrationOptions.
+  int MaximumCoefficients;
+  vtkTypeBool SquarePixels;
+  int MinimumCorners;
 
 private:
   vtkBoardCalibration(const vtkBoardCalibration&) = delete;

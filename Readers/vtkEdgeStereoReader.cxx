@@ -128,6 +128,15 @@ std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene&
 vtkEdgeStereoReader::vtkEdgeStereoReader()
 {
   this->SetNumberOfInputPorts(1);
+  const freespace::EdgeStereoOptions options;
+  this->Smoothing = options.edges.smoothing;
+  this->LowContrast = options.edges.lowContrast;
+  this->HighContrast = options.edges.highContrast;
+  this->Tolerance = options.matching.tolerance;
+  this->MinimumAngle = options.matching.minimumAngle;
+  this->ColorTolerance = options.matching.colorTolerance;
+  this->MinimumRun = options.matching.minimumRun;
+  this->Patches = options.patches.isOn;
 }
 
 vtkEdgeStereoReader::~vtkEdgeStereoReader() = default;

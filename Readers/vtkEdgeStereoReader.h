@@ -273,14 +273,15 @@ protected:
   std::vector<std::array<std::string, 4>> Triplets; // cluster, first, reference, last
   double MinimumDepth = 0.0;
   double MaximumDepth = 0.0;
-  double Smoothing = 1.0;
-  double LowContrast = 1.8;
-  double HighContrast = 4.5;
-  double Tolerance = 0.7;
-  double MinimumAngle = 6.0;
-  double ColorTolerance = 45.0;
-  int MinimumRun = 4;
-  vtkTypeBool Patches = true;
+  // Defaults are those of freespace::EdgeStereoOptions.
+  double Smoothing;
+  double LowContrast;
+  double HighContrast;
+  double Tolerance;
+  double MinimumAngle;
+  double ColorTolerance;
+  int MinimumRun;
+  vtkTypeBool Patches;
   int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
   vtkTypeBool CheckImages = true;

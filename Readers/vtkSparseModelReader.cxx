@@ -19,6 +19,11 @@ vtkStandardNewMacro(vtkSparseModelReader);
 vtkSparseModelReader::vtkSparseModelReader()
 {
   this->SetNumberOfInputPorts(0);
+  const freespace::SparseViewOptions options;
+  this->MinimumTrackLength = options.minimumTrackLength;
+  this->MaximumError = options.maximumError;
+  this->MinimumAngle = options.minimumAngle;
+  this->MinimumFeatures = options.minimumFeatures;
 }
 
 bool vtkSparseModelReader::CanReadFile(const std::string& path)

@@ -127,10 +127,11 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::string FileName;
-  int MinimumTrackLength = 2;
-  double MaximumError = 4.0;
-  double MinimumAngle = 5.0;
-  int MinimumFeatures = 10;
+  // Defaults are those of freespace::SparseViewOptions.
+  int MinimumTrackLength;
+  double MaximumError;
+  double MinimumAngle;
+  int MinimumFeatures;
   vtkTypeBool CheckImages = true;
 
 private:

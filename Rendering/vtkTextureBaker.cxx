@@ -102,6 +102,13 @@ Eigen::Vector3d LocalOrigin(const TriangleMesh& mesh)
 vtkTextureBaker::vtkTextureBaker()
 {
   this->SetNumberOfOutputPorts(2);
+  const freespace::TextureAtlasOptions atlas;
+  this->TexelSize = atlas.texel;
+  this->LargestTexture = atlas.largest;
+  const freespace::SurfaceColorOptions look;
+  this->Sharpness = look.sharpness;
+  this->Leveling = look.level;
+  this->Feather = look.visibility.feather;
 }
 
 void vtkTextureBaker::SetPhotographs(vtkMultiBlockDataSet* photographs)

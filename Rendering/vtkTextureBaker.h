@@ -119,11 +119,12 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   vtkSmartPointer<vtkMultiBlockDataSet> Photographs;
-  double TexelSize = 0.0;
-  int LargestTexture = 8192;
-  double Sharpness = 4.0;
-  vtkTypeBool Leveling = true;
-  double Feather = 12.0;
+  // Defaults are those of freespace::TextureAtlasOptions and SurfaceColorOptions.
+  double TexelSize;
+  int LargestTexture;
+  double Sharpness;
+  vtkTypeBool Leveling;
+  double Feather;
   double UnseenColor[3] = { 0.7, 0.7, 0.7 };
   int NumberOfCharts = 0;
   double BakedTexelSize = 0.0;

@@ -191,6 +191,9 @@ vtkViewDependentTextureMapper::vtkViewDependentTextureMapper()
   : Internals(new InternalState)
 {
   this->ScalarVisibilityOff();
+  const freespace::VisibilityOptions visibility;
+  this->Feather = visibility.feather;
+  this->Tolerance = visibility.tolerance;
 }
 
 vtkViewDependentTextureMapper::~vtkViewDependentTextureMapper()

@@ -140,8 +140,8 @@ protected:
 
   vtkSmartPointer<vtkMultiBlockDataSet> Photographs;
   int BlendedViews = 4;
-  double Feather = 12.0;
-  double Tolerance = 6.0;
+  double Feather; // this and Tolerance by default as in freespace::VisibilityOptions
+  double Tolerance;
   int EdgeSamples = 4;
   int MaximumNumberOfViews = 64;
   int MaximumPhotographSize = 2048;

@@ -22,6 +22,7 @@ MOST_LINES = 500
 MOST_FILES = 20
 MOST_FUNCTION_LINES = 80
 CODE = ('.h', '.cxx', '.py', '.js')
+TEXT = CODE + ('.c', '.css', '.cmake', '.glsl', '.html', '.in', 'CMakeLists.txt') # and scripts without an ending
 
 
 def code_files(source, roots):
@@ -98,9 +99,19 @@ def check_cycles(source, faults):
             faults.append(f'Include cycle between {kind}: ' + ' -> '.join(cycle))
 
 
+def text_files(source):
+    """All that is written by hand, the scripts among it."""
+    for root in ROOTS + ['Testing', 'Examples', 'Packaging', '.ci']:
+        for folder, _, names in os.walk(os.path.join(source, root)):
+            for name in sorted(names):
+                if name.endswith(TEXT) or ('.' not in name and os.access(os.path.join(folder, name), os.X_OK)):
+                    yield os.path.relpath(os.path.join(folder, name), source)
+    yield 'CMakeLists.txt'
+
+
 def check_sizes(source, faults):
-    for file in code_files(source, ROOTS + ['Testing', 'Examples']):
-        with open(os.path.join(source, file), encoding='utf-8') as text:
+    for file in text_files(source):
+        with open(os.path.join(source, file), encoding='utf-8', errors='replace') as text:
             lines = sum(1 for _ in text)
         if lines > MOST_LINES:
             faults.append(f'{file} has {lines} lines, more than {MOST_LINES}.')

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Calibration/BoardCalibration.h"
 #include "Session/Session.h"
 
 #include <vtkBoardCalibration.h>
@@ -22,7 +23,7 @@ struct Settings
   std::vector<std::string> pictures;
   std::string board;
   std::string output;
-  int coefficients = 5;
+  int coefficients = BoardCalibrationOptions().maximumCoefficients;
   bool text = false;
 };
 

@@ -5,6 +5,7 @@
 #include "Output/SurfaceFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Texture/TextureAtlas.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -27,8 +28,8 @@ struct Settings
   std::string mesh;
   std::string scene;
   std::string output;
-  double texel = 0;
-  int largest = 8192;
+  double texel = TextureAtlasOptions().texel;
+  int largest = TextureAtlasOptions().largest;
 };
 
 void AddOptions(CLI::App& command, Settings& settings)

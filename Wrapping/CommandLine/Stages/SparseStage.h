@@ -2,6 +2,7 @@
 #ifndef freespace_SparseStage_h
 #define freespace_SparseStage_h
 
+#include "SparseModel/SparseViews.h"
 #include "Stages/WrongImagesOption.h"
 
 #include <CLI/CLI.hpp>
@@ -26,9 +27,9 @@ public:
     Session& session, const std::string& model, int minimumSupport) const;
 
 private:
-  int MinimumTrackLength = 2;
-  double MaximumError = 4;
-  double MinimumAngle = 5;
+  int MinimumTrackLength = SparseViewOptions().minimumTrackLength;
+  double MaximumError = SparseViewOptions().maximumError;
+  double MinimumAngle = SparseViewOptions().minimumAngle;
   WrongImagesOption WrongImages;
 };
 
