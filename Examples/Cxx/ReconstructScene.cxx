@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From photographs to a surface: ReconstructScene SCENE.json OUT.ply [CELLS]
+// From images to a surface: ReconstructScene SCENE.json OUT.ply [CELLS]
 #include <vtkDelaunayDisparityFilter.h>
 #include <vtkEdgeStereoReader.h>
 #include <vtkFreespaceSurfaceFilter.h>

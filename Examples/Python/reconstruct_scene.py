@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""From photographs to a surface: reconstruct_scene.py SCENE.json OUT.ply [CELLS]"""
+"""From images to a surface: reconstruct_scene.py SCENE.json OUT.ply [CELLS]"""
 import sys
 
 import freespace

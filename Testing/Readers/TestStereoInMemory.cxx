@@ -68,7 +68,7 @@ void ExpectSameView(vtkPolyData* a, vtkPolyData* b)
 
 }
 
-// Photographs as a vtkPhotographReader generates them, connected to another reader with the clusters.
+// Images as a vtkPhotographReader generates them, connected to another reader with the clusters.
 TEST(StereoInMemory, ImagesInMemoryGiveTheSameFeatures)
 {
   const SquaresScene scene(1);

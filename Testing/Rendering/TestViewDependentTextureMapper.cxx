@@ -139,7 +139,7 @@ TEST(ViewDependentTexture, NothingOfABlockAppearsOnTheBoardBehindIt)
       comparison.ForEachPixel(1,
         [&](const Eigen::Vector3d& point, const unsigned char* shown)
         {
-          // Where the block stands on the board, and at the board's rim, a pixel of a photograph,
+          // Where the block stands on the board, and at the board's rim, a pixel of an image,
           // 0.1 long there, shows both.
           const double beside = std::max(std::abs(point.x()), std::abs(point.y())) - 1;
           if (!comparison.scene.IsOnBlock(point) && beside > 0.2 && beside < 3.8)
@@ -149,14 +149,14 @@ TEST(ViewDependentTexture, NothingOfABlockAppearsOnTheBoardBehindIt)
           }
         });
       EXPECT_GT(count, 5000);
-      EXPECT_LE(reddest, 10) << photographs << " photographs, from " << angle;
+      EXPECT_LE(reddest, 10) << photographs << " images, from " << angle;
     }
   }
 }
 
 TEST(ViewDependentTexture, WhatNoPhotographSeesHasTheUnseenColor)
 {
-  // One photograph from +x: the block's face towards -x and the board behind it are not seen.
+  // One image from +x: the block's face towards -x and the board behind it are not seen.
   Comparison comparison(BlockScene(), BlockScene().CameraAt(M_PI, 9, 7), 1);
   comparison.mapper->SetUnseenColor(0.2, 0.4, 0.6);
   comparison.Render();

@@ -145,7 +145,7 @@ struct BlockScene
     return blocks;
   }
 
-  /// Photographs from `count` angles, called p0, p1 and so on.
+  /// Images from `count` angles, called p0, p1 and so on.
   vtkSmartPointer<vtkMultiBlockDataSet> Photographs(int count) const
   {
     std::vector<freespace::Photograph> photographs;

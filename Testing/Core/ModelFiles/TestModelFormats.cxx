@@ -230,7 +230,7 @@ TEST(ModelFormats, MetashapeHasTheCamerasOfColmap)
   }
 }
 
-// Labels without an extension, as Metashape has them, are photographs that are there.
+// Labels without an extension, as Metashape has them, are images that exist.
 TEST(ModelFormats, MetashapesPhotographs)
 {
   const std::string text =
@@ -268,7 +268,7 @@ TEST(ModelFormats, MiddleburyHasTheCamerasOfColmap)
   for (const LensModel lens : { LensModel::Pinhole, LensModel::SimplePinhole })
   {
     SparseModel model = MakeSyntheticModel(5, 0, lens);
-    model.cameras[0].width = 811; // twice the principal point, since photographs are missing
+    model.cameras[0].width = 811; // twice the principal point, since the image files are missing
     model.cameras[0].height = lens == LensModel::Pinhole ? 581 : 600;
     model.cameras[0].width = lens == LensModel::Pinhole ? 811 : 800;
     ExpectSameCameras(FromColmap(model), ReadText("temple_par.txt", MiddleburyText(model)));

@@ -72,7 +72,7 @@ TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)
   EXPECT_EQ(after[0].camera.height, 300);
   EXPECT_EQ(after[0].distortion, before[0].distortion);
   EXPECT_EQ(after[1].camera.K, before[1].camera.K);
-  EXPECT_EQ(after[2].camera.K, before[2].camera.K); // whose photograph is missing
+  EXPECT_EQ(after[2].camera.K, before[2].camera.K); // whose file is missing
   for (std::size_t i = 0; i < given.images[0].observations.size(); ++i)
   {
     EXPECT_EQ(model.images[0].observations[i].pixel, 0.5 * given.images[0].observations[i].pixel);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Freespace: surfaces from calibrated photographs by feature based stereo, as VTK algorithms.
+"""Freespace: surfaces from calibrated images by feature based stereo, as VTK algorithms.
 
     import freespace
     surface = freespace.reconstruct('scene.json')                # a vtkPolyData
