@@ -42,7 +42,7 @@ struct BakedScene
     this->baker->Update();
   }
 
-  // The texture at a point of a triangle, interpolated by nobody.
+  // The texture at a point of a triangle, at the nearest texel, without interpolation.
   std::array<double, 3> Look(vtkIdType triangle, double s, double t, Eigen::Vector3d& point) const
   {
     vtkPolyData* surface = this->baker->GetOutput();

@@ -22,7 +22,7 @@ inline Eigen::Vector2d ShowPoint(
 }
 
 /// Cameras on an arc of 60 degrees about points in a cube of side 1, each of which is seen by the
-/// first image and by others as chance will have it. The observations are exact; some belong to no
+/// first image and by others at random. The observations are exact; some belong to no
 /// point.
 inline SparseModel MakeSyntheticModel(int images, int points, LensModel lens = LensModel::Pinhole)
 {
