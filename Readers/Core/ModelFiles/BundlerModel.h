@@ -13,7 +13,7 @@ namespace freespace
 ///
 /// The file names no images and does not know their size. Names are taken from a NAME.list.txt beside
 /// NAME.out or NAME.bundle.out, a NAME.out.list.txt, or a list.txt beside it or in the folder above, else
-/// they are image0, image1, ... They may have blanks. Photographs are sought relative to the list. A camera
+/// they are image0, image1, ... They may have blanks. Images are sought relative to the list. A camera
 /// with focal length 0, which Bundler did not place, is left out.
 ///
 /// Throws Error naming the file, line and fault.

@@ -86,7 +86,7 @@ SparseCamera CameraOf(const XmlNode& sensor)
   return camera;
 }
 
-// Photographs by their names without extension, relative to the folder.
+// Images by their names without extension, relative to the folder.
 std::map<std::string, std::string> PhotographsBelow(const fs::path& folder)
 {
   std::map<std::string, std::string> photographs;

@@ -8,7 +8,7 @@ namespace freespace
 {
 
 /// Reads a NAME_par.txt of Middlebury's multi-view benchmark: cameras only, no points. After the number of
-/// images each line has a name, K and R row by row and t, with x = K (R X + t). Photographs are beside the
+/// images each line has a name, K and R row by row and t, with x = K (R X + t). Images are beside the
 /// file and have the size; else it is twice the principal point.
 ///
 /// Throws Error naming the file, line and fault.

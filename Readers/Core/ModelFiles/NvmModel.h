@@ -10,7 +10,7 @@ namespace freespace
 /// Reads the first (largest) model of VisualSFM's .nvm file, version NVM_V3.
 ///
 /// Its pixels are counted from the middle of the image, or as COLMAP exports it from the upper left corner;
-/// sizes of images are found as UnsizedModel finds them, photographs relative to the .nvm file. Its one
+/// sizes of images are found as UnsizedModel finds them, images relative to the .nvm file. Its one
 /// coefficient r of radial distortion maps measured to undistorted coordinates, u = m (1 + r |m|^2) with m
 /// in units of the focal length. It is turned into the first three coefficients of the inverse series,
 /// which leaves a relative error of 55 (r |u|^2)^4. COLMAP writes its SIMPLE_RADIAL's -k1 for r: that

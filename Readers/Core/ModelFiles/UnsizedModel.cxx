@@ -97,7 +97,7 @@ std::vector<Eigen::Vector2d> UnsizedModel::Projections(const Placed& placed) con
 
 bool UnsizedModel::AreCountedFromCorner() const
 {
-  const double least = this->Convention.firstCenter - 0.5; // of a coordinate in the picture
+  const double least = this->Convention.firstCenter - 0.5; // of a coordinate in the image
   std::size_t count = 0, beyond = 0;
   if (this->Convention.origin)
   {

@@ -17,7 +17,7 @@ class TextSource;
 /// counted from a corner: where no observation lies left of or beyond that corner although points do lie
 /// to all sides of the optical axes, pixels are taken to be counted from there.
 ///
-/// The principal point is the middle of the image where the file does not give it. Sizes are those of the photographs where they are
+/// The principal point is the middle of the image where the file does not give it. Sizes are those of the images where they are
 /// found. Else the size is the smallest even one that holds all observations or, where pixels are counted
 /// from a corner, the one whose middle the observations and their points put there, to the half pixel.
 class UnsizedModel
@@ -52,7 +52,7 @@ public:
   /// and the pixel.
   void ReadPoints(TextSource& source, std::uint64_t count);
 
-  /// The model of all images that were placed. Photographs are sought relative to the folder. Throws Error
+  /// The model of all images that were placed. Images are sought relative to the folder. Throws Error
   /// naming the file when an image cannot be used.
   SparseModel Take(const std::string& file, const std::string& folder);
 

@@ -67,7 +67,7 @@ void Calibrate(Session& session, const Settings& settings)
   calibration->WritePictures(settings.output + "/boards");
   calibration->WriteScene(settings.output + "/scene.json", settings.output);
   session.ThrowIfFailed();
-  session.Log("wrote the cameras and pictures in " + settings.output);
+  session.Log("wrote the cameras and images in " + settings.output);
   std::cout << calibration->GetText();
 }
 
@@ -77,15 +77,14 @@ void AddCalibrateCommand(CLI::App& program, Session& session)
 {
   auto settings = std::make_shared<Settings>();
   CLI::App* command =
-    program.add_subcommand("calibrate", "Find cameras from pictures of a calibration board");
+    program.add_subcommand("calibrate", "Find cameras from images of a calibration board");
   AddOptions(*command, *settings);
-  command->footer(
-    "Writes a COLMAP model, a scene.json for it and, in boards/, the pictures with the "
-    "corners found.\n"
-    "Example:\n"
-    "  freespace calibrate images/*.jpg --board "
-    "charuco:15x15:0.03:0.0225:DICT_5X5_250 -o cameras\n"
-    "  freespace reconstruct cameras/scene.json -o mesh.ply");
+  command->footer("Writes a COLMAP model, a scene.json for it and, in boards/, the images with the "
+                  "corners found.\n"
+                  "Example:\n"
+                  "  freespace calibrate images/*.jpg --board "
+                  "charuco:15x15:0.03:0.0225:DICT_5X5_250 -o cameras\n"
+                  "  freespace reconstruct cameras/scene.json -o mesh.ply");
   command->callback(session.Defer([settings, &session]() { Calibrate(session, *settings); }));
 }
 
