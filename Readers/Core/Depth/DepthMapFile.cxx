@@ -45,7 +45,7 @@ public:
     constexpr std::size_t most = 64;
     const std::string_view rest = std::string_view(this->Content).substr(this->Position);
     const std::size_t end = rest.substr(0, most).find_first_of(ends);
-    if (end == rest.npos)
+    if (end == std::string_view::npos)
     {
       this->Fail("its header is not that of a depth map");
     }

@@ -7,6 +7,7 @@
 #include "Text/TextSource.h"
 
 #include <filesystem>
+#include <string_view>
 
 namespace freespace
 {
@@ -64,9 +65,10 @@ std::string NameIn(std::string_view line)
 {
   constexpr std::string_view blanks = " \t";
   const std::size_t last = line.find_last_of(blanks);
-  const std::size_t end = last == line.npos ? last : line.find_last_not_of(blanks, last);
-  const std::size_t zero = end == line.npos ? end : line.find_last_of(blanks, end);
-  if (zero != line.npos && line.substr(zero + 1, end - zero) == "0" &&
+  const std::size_t end =
+    last == std::string_view::npos ? last : line.find_last_not_of(blanks, last);
+  const std::size_t zero = end == std::string_view::npos ? end : line.find_last_of(blanks, end);
+  if (zero != std::string_view::npos && line.substr(zero + 1, end - zero) == "0" &&
     ParseNumber<double>(line.substr(last + 1)))
   {
     return std::string(line.substr(0, line.find_last_not_of(blanks, zero) + 1));
