@@ -25,6 +25,7 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
   const freespace::DisparityMapOptions options;
   this->FeatureSpacing = options.thinning.spacing;
   this->Support = options.outliers.support;
+  this->SharingViews = options.outliers.sharingViews;
   this->SupportRadius = options.outliers.radius;
   this->SupportTolerance = options.outliers.tolerance;
   this->SeeThroughViews = options.outliers.seeThroughViews;
@@ -46,6 +47,7 @@ freespace::DisparityMapOptions vtkDelaunayDisparityFilter::Options() const
   freespace::DisparityMapOptions options;
   options.thinning.spacing = this->FeatureSpacing;
   options.outliers.support = this->Support;
+  options.outliers.sharingViews = this->SharingViews;
   options.outliers.radius = this->SupportRadius;
   options.outliers.tolerance = this->SupportTolerance;
   options.outliers.seeThroughViews = this->SeeThroughViews;
@@ -105,6 +107,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FeatureSpacing: " << this->FeatureSpacing << "\n";
   os << indent << "Support: " << this->Support << "\n";
+  os << indent << "SharingViews: " << this->SharingViews << "\n";
   os << indent << "SupportRadius: " << this->SupportRadius << "\n";
   os << indent << "SupportTolerance: " << this->SupportTolerance << "\n";
   os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";

@@ -93,6 +93,15 @@ public:
 
   ///@{
   /**
+   * A feature that at least this number of views have at exactly the same place, as the views of a
+   * structure-from-motion model have, needs no support; 0: all need it, otherwise at least 2. Default 3.
+   */
+  vtkSetMacro(SharingViews, int);
+  vtkGetMacro(SharingViews, int);
+  ///@}
+
+  ///@{
+  /**
    * The neighbourhood. 0, the default: the six nearest features in the image, within two triangles. Otherwise the
    * features within so many mean distances between the features of the view: 2, for isolated points, has about 12.
    */
@@ -238,6 +247,7 @@ protected:
   // Defaults are those of freespace::DisparityMapOptions.
   double FeatureSpacing;
   int Support;
+  int SharingViews;
   double SupportRadius;
   double SupportTolerance;
   int SeeThroughViews;

@@ -26,6 +26,7 @@ vtkOutlierFilter::vtkOutlierFilter()
 {
   const freespace::OutlierOptions options;
   this->Support = options.support;
+  this->SharingViews = options.sharingViews;
   this->SupportRadius = options.radius;
   this->SupportTolerance = options.tolerance;
   this->SeeThroughViews = options.seeThroughViews;
@@ -97,6 +98,7 @@ int vtkOutlierFilter::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   freespace::OutlierOptions options;
   options.support = this->Support;
+  options.sharingViews = this->SharingViews;
   options.radius = this->SupportRadius;
   options.tolerance = this->SupportTolerance;
   options.seeThroughViews = this->SeeThroughViews;
@@ -125,6 +127,7 @@ void vtkOutlierFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Support: " << this->Support << "\n";
+  os << indent << "SharingViews: " << this->SharingViews << "\n";
   os << indent << "SupportRadius: " << this->SupportRadius << "\n";
   os << indent << "SupportTolerance: " << this->SupportTolerance << "\n";
   os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";

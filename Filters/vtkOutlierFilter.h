@@ -42,6 +42,15 @@ public:
 
   ///@{
   /**
+   * A feature that at least this number of views have at exactly the same place, as the views of a
+   * structure-from-motion model have, needs no support; 0: all need it, otherwise at least 2. Default 3.
+   */
+  vtkSetMacro(SharingViews, int);
+  vtkGetMacro(SharingViews, int);
+  ///@}
+
+  ///@{
+  /**
    * The neighbourhood. 0, the default: the six nearest features in the image, within two triangles. Otherwise the
    * features within so many mean distances between the features of the view: 2, for isolated points, has about 12.
    */
@@ -86,6 +95,7 @@ protected:
 
   // Defaults are those of freespace::OutlierOptions.
   int Support;
+  int SharingViews;
   double SupportRadius;
   double SupportTolerance;
   int SeeThroughViews;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Disparity/FeatureCloud.h"
 
+#include "Disparity/PointHash.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace freespace
 {
@@ -32,7 +33,7 @@ public:
   std::size_t Insert(const std::vector<FeatureCloud::Feature>& features)
   {
     const Eigen::Vector3d& point = features.back().point;
-    std::size_t slot = Hash(point) & (this->Slots.size() - 1);
+    std::size_t slot = PointHash()(point) & (this->Slots.size() - 1);
     while (this->Slots[slot] != empty)
     {
       if (features[this->Slots[slot]].point == point)
@@ -47,20 +48,6 @@ public:
 
 private:
   static constexpr std::size_t empty = SIZE_MAX;
-
-  static std::size_t Hash(const Eigen::Vector3d& point)
-  {
-    std::uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      const double coordinate = point[i] + 0.0; // -0 equals 0
-      std::uint64_t bits;
-      std::memcpy(&bits, &coordinate, sizeof(bits));
-      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
-  }
 
   std::vector<std::size_t> Slots; // indices of features
 };

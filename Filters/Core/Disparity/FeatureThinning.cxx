@@ -19,7 +19,8 @@ namespace
 // Features of one cell and depth.
 struct Group
 {
-  double disparity = 0; // of the first
+  std::size_t first = 0; // feature
+  double disparity = 0;  // of the first
   int count = 0;
   double weights = 0;
   Eigen::Vector2d imagePoint = Eigen::Vector2d::Zero(); // weighted sums
@@ -63,7 +64,10 @@ public:
     {
       const Eigen::Vector2d pixel = group.imagePoint / group.weights;
       thin.imagePoints.push_back(pixel);
-      thin.points.push_back(thin.camera.Unproject(pixel, group.weights / group.sum));
+      // One alone stays exactly where it is: views share the points of structure from motion.
+      thin.points.push_back(group.count == 1
+          ? this->Given.points[group.first]
+          : thin.camera.Unproject(pixel, group.weights / group.sum));
       if (!this->Given.deviations.empty())
       {
         // Neighbours share most of their errors: as good as one of them.
@@ -83,16 +87,17 @@ private:
     {
       return;
     }
-    const std::size_t group = this->FindGroup(pixel, disparity);
+    const std::size_t group = this->FindGroup(feature, disparity);
     this->GroupOf[feature] = static_cast<int>(group);
     const double known = this->Given.deviations.empty() ? 0 : this->Given.deviations[feature];
     this->Groups[group].Add(pixel, disparity, known > 0 ? known : this->Typical);
   }
 
-  // The group of a pixel and disparity, a new one where there is none.
-  std::size_t FindGroup(const Eigen::Vector2d& pixel, double disparity)
+  // The group of a feature, a new one where there is none.
+  std::size_t FindGroup(std::size_t feature, double disparity)
   {
-    const Eigen::Vector2d cell = (pixel / this->Options.spacing).array().floor();
+    const Eigen::Vector2d cell =
+      (this->Given.imagePoints[feature] / this->Options.spacing).array().floor();
     std::vector<std::size_t>& groups = this->GroupsOfCell[{ cell.x(), cell.y() }];
     const auto known = std::find_if(groups.begin(), groups.end(),
       [&](std::size_t g)
@@ -105,7 +110,9 @@ private:
       return *known;
     }
     groups.push_back(this->Groups.size());
-    this->Groups.emplace_back().disparity = disparity;
+    Group& group = this->Groups.emplace_back();
+    group.first = feature;
+    group.disparity = disparity;
     return groups.back();
   }
 

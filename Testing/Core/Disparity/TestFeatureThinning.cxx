@@ -68,6 +68,17 @@ TEST(FeatureThinning, MeanWeightedByTheInverseVariances)
   EXPECT_EQ(thin.imageFile, view.imageFile);
 }
 
+TEST(FeatureThinning, OneAloneKeepsItsPlaceBesideItsProjection)
+{
+  View view = EmptyView();
+  Add(view, { 100, 100 }, 0.5);
+  view.imagePoints[0] +=
+    Eigen::Vector2d(0.4, -0.3); // the observation of a point that others see, too
+  const View thin = ThinFeatures(view, WithSpacing(3));
+  EXPECT_EQ(thin.points, view.points);
+  EXPECT_EQ(thin.imagePoints, view.imagePoints);
+}
+
 TEST(FeatureThinning, UnknownDeviationsCountLikeTheTypicalOne)
 {
   View view = EmptyView();

@@ -203,6 +203,34 @@ TEST(RejectOutliers, SupportWithinARadius)
   }
 }
 
+// A point far before a sheet has no support, unless three views have it.
+TEST(RejectOutliers, WhatThreeViewsShareNeedsNoSupport)
+{
+  const Eigen::Vector3d alone(0.1, 0.2, -0.5);
+  for (const double radius : { 0.0, 2.0 })
+  {
+    for (const std::size_t sharing : { 1, 2, 3 })
+    {
+      std::vector<View> views = SheetViews(500);
+      for (std::size_t v = 0; v < sharing; ++v)
+      {
+        views[v].points.push_back(alone);
+        views[v].imagePoints.push_back(views[v].camera.Project(alone));
+      }
+      // The same view twice is no second one.
+      views[0].points.push_back(alone);
+      views[0].imagePoints.push_back(views[0].camera.Project(alone));
+      OutlierOptions options;
+      options.radius = radius;
+      EXPECT_EQ(AcceptedFeatures(views, options)[0][500], sharing == 3) << radius << " " << sharing;
+      options.sharingViews = 2;
+      EXPECT_EQ(AcceptedFeatures(views, options)[0][500], sharing >= 2) << radius << " " << sharing;
+      options.sharingViews = 0;
+      EXPECT_FALSE(AcceptedFeatures(views, options)[0][500]) << radius << " " << sharing;
+    }
+  }
+}
+
 TEST(RejectOutliers, ViewsKeepThreeFeatures)
 {
   std::vector<View> views = SheetViews(3);
@@ -220,6 +248,9 @@ TEST(RejectOutliers, OptionsOutOfRange)
   EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
   options.violatingFeatures = -1;
+  EXPECT_THROW(RejectOutliers({}, options), Error);
+  options = {};
+  options.sharingViews = 1;
   EXPECT_THROW(RejectOutliers({}, options), Error);
   options = {};
   options.nearest = 0;

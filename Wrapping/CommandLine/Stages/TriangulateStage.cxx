@@ -48,6 +48,13 @@ void TriangulateStage::AddOptions(CLI::App& command)
 {
   AddSupportOption(command, this->Support, "Disparity maps");
   command
+    .add_option("--sharing-views", this->SharingViews,
+      "A feature that this number of views share needs no support, such as the points of a "
+      "structure-from-motion model; 0: all need it")
+    ->check(NonNegative())
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--support-radius", this->SupportRadius,
       "Neighbourhood of a feature in mean distances between features; 0: its six nearest in the "
       "triangulation")
@@ -125,6 +132,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetPartnerViews(this->PartnerViews);
   maps->SetTolerance(this->Tolerance);
   maps->SetSupport(this->Support);
+  maps->SetSharingViews(this->SharingViews);
   maps->SetSupportRadius(this->SupportRadius);
   maps->SetSeeThroughViews(this->SeeThroughViews);
   maps->SetViolatingFeatures(this->ViolatingFeatures);

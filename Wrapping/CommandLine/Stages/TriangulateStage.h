@@ -34,6 +34,7 @@ public:
 
 private:
   int Support = OutlierOptions().support;
+  int SharingViews = OutlierOptions().sharingViews;
   double SupportRadius = OutlierOptions().radius;
   int SeeThroughViews = OutlierOptions().seeThroughViews;
   int ViolatingFeatures = OutlierOptions().violatingFeatures;

@@ -21,6 +21,10 @@ void OutlierOptions::Check() const
     throw Error("The numbers of neighbours, views and features that test for outliers are out of "
                 "range.");
   }
+  if (this->sharingViews < 0 || this->sharingViews == 1)
+  {
+    throw Error("Features that need no support are those of two views at least.");
+  }
   if (!(this->radius >= 0) || !std::isfinite(this->radius) || !(this->tolerance >= 0))
   {
     throw Error("The radius of a feature's neighbourhood and its tolerance cannot be negative.");

@@ -12,6 +12,10 @@ struct OutlierOptions
   /// Minimum number of features in the neighbourhood with a similar disparity; >= 0, 0 switches the test off.
   int support = 2;
 
+  /// A feature that at least this number of views have at exactly the same place, as the views of a
+  /// structure-from-motion model have, needs no support: each of them has confirmed it. 0: all need it; otherwise >= 2.
+  int sharingViews = 3;
+
   /// The neighbourhood. 0: the `nearest` features within two edges of the triangulation, which adapts to the density of
   /// the features and to depth jumps. Otherwise all features within so many mean distances between the features of
   /// the view: 2 has about 12 of them. For isolated points; >= 0.

@@ -4,6 +4,7 @@
 #include "Common/ParallelForWithProgress.h"
 #include "Disparity/FeatureCloud.h"
 #include "Disparity/Outliers/RadiusSupport.h"
+#include "Disparity/Outliers/SharedFeatures.h"
 #include "Disparity/Outliers/TriangulationSupport.h"
 #include "Disparity/Outliers/ViolatedTriangles.h"
 #include "Disparity/OverlappingViews.h"
@@ -121,6 +122,26 @@ std::vector<View> KeptFeatures(const std::vector<View>& views, const Flags& acce
   return kept;
 }
 
+// Which features need no support.
+class ConfirmedFeatures
+{
+public:
+  ConfirmedFeatures(const std::vector<View>& views, const OutlierOptions& options)
+    : Shared(options.support > 0 && options.sharingViews > 0 ? views : std::vector<View>())
+    , Least(options.sharingViews)
+  {
+  }
+
+  bool Has(const Vector3d& point) const
+  {
+    return this->Least > 0 && this->Shared.ViewsWith(point) >= this->Least;
+  }
+
+private:
+  SharedFeatures Shared;
+  int Least;
+};
+
 // Whether features have enough support within the radius.
 Flags SupportedWithinRadius(const std::vector<View>& views, const OutlierOptions& options,
   const ParallelFor& parallelFor, const Progress& progress)
@@ -129,6 +150,7 @@ Flags SupportedWithinRadius(const std::vector<View>& views, const OutlierOptions
   std::vector<double> work;
   std::transform(views.begin(), views.end(), std::back_inserter(work),
     [](const View& view) { return static_cast<double>(view.points.size()); });
+  const ConfirmedFeatures confirmed(views, options);
   Flags accepted(views.size());
   ParallelForWithProgress(work, parallelFor, progress,
     [&](std::size_t v, const CancellationFlag&)
@@ -136,7 +158,9 @@ Flags SupportedWithinRadius(const std::vector<View>& views, const OutlierOptions
       const double radius = std::max(options.radius * MeanSpacing(views[v]), least);
       for (const int support : CountSupport(views[v], radius, options.tolerance))
       {
-        accepted[v].push_back(support >= options.support);
+        // Not finite or not in front of the camera: -1.
+        accepted[v].push_back(support >= options.support ||
+          (support >= 0 && confirmed.Has(views[v].points[accepted[v].size()])));
       }
     });
   KeepTriangles(accepted);
@@ -148,6 +172,7 @@ Flags AcceptedInMaps(const std::vector<View>& views, const std::vector<Disparity
   const OutlierOptions& options, const ParallelFor& parallelFor, const Progress& progress)
 {
   std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
+  const ConfirmedFeatures confirmed(views, options);
   Flags supported(maps.size()), accepted(maps.size());
   std::vector<double> work;
   std::transform(maps.begin(), maps.end(), std::back_inserter(work),
@@ -158,6 +183,10 @@ Flags AcceptedInMaps(const std::vector<View>& views, const std::vector<Disparity
       freespaces[v] =
         options.AsksOthers() ? std::make_unique<ViewFreespace>(maps[v], stop) : nullptr;
       supported[v] = SupportedPoints(maps[v], options, stop);
+      std::transform(supported[v].begin(), supported[v].end(), maps[v].points.begin(),
+        supported[v].begin(),
+        [&](char isSupported, const Vector3d& point) -> char
+        { return isSupported || confirmed.Has(point); });
     });
   const FeatureCloud cloud(
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
