@@ -14,8 +14,8 @@
  * The depth of the scene and what images have in common come from the points of the camera model;
  * for an image without points, from the points where the optical axes of its neighbours pass its own
  * most closely. Angles are between the rays from the scene to two camera centres, so that no parameter
- * depends on the unit of the model. Images whose file is missing are not proposed, unless the folder of the images is missing
- * altogether.
+ * depends on the unit of the model. Images whose file is missing are not proposed, unless the folder of the
+ * images is missing altogether.
  *
  * Propose() reads the scene and chooses; the result can be printed (GetText, GetSummary), queried, and
  * saved as a scene.json (WriteScene). What cannot be read or written, and a scene in which no image has

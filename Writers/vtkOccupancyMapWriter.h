@@ -43,7 +43,8 @@ public:
 
   ///@{
   /**
-   * Side of the smallest cells; a negative one is an error. Default 0: 1/128 of the longest side of the hull's bounding box.
+   * Side of the smallest cells; a negative one is an error. Default 0: 1/128 of the longest side of the hull's
+   * bounding box.
    */
   vtkSetMacro(Resolution, double);
   vtkGetMacro(Resolution, double);

@@ -27,7 +27,8 @@ struct CheckedScene
 /// (FindWrongImages). Proposes clusters of the remaining images where the scene names none; wrong images
 /// are removed from those that it names (WithoutImages).
 ///
-/// `model` is the scene's (ReadSceneModel, MemoryScene). Throws Error when no cluster is left or can be proposed, and what the steps throw.
+/// `model` is the scene's (ReadSceneModel, MemoryScene). Throws Error when no cluster is left or can be proposed, and
+/// what the steps throw.
 CheckedScene CheckScene(const Scene& scene, SparseModel model, EdgeStore& edges,
   const MatcherOptions& matching, const ClusterProposalOptions& clusters, bool check,
   const ParallelFor& parallelFor, const Progress& progress);

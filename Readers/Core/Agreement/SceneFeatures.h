@@ -19,7 +19,8 @@ namespace freespace
 std::vector<char> FindPoorViews(const std::vector<EdgeView>& views);
 
 /// FindFeatures for all clusters of a scene; poor views are left out. Each of these that belongs to the
-/// first `needed` clusters is named in a warning. Other views of fewer than three features are dropped without a warning.
+/// first `needed` clusters is named in a warning. Other views of fewer than three features are dropped without
+/// a warning.
 ///
 /// As many clusters at a time as there are threads: this bounds the memory. Throws Error as FindFeatures
 /// does for the first cluster of the needed that fails, TooFewFeatures only when no view is left.

@@ -31,9 +31,9 @@ struct BoardDetection
 /// board towards who sees it, the origin in the middle of the board.
 std::vector<Eigen::Vector3d> BoardPoints(const Board& board);
 
-/// Finds a board in a grey image, in the layout that more of its markers fit. A ChArUco board may be partly hidden; of a chessboard all inner
-/// corners must be seen. No corners mean that the board was not found. Throws Error for a dictionary that
-/// does not exist or has too few markers.
+/// Finds a board in a grey image, in the layout that more of its markers fit. A ChArUco board may be partly hidden; of
+/// a chessboard all inner corners must be seen. No corners mean that the board was not found. Throws Error for a
+/// dictionary that does not exist or has too few markers.
 BoardCorners DetectBoard(const cv::Mat& gray, const Board& board);
 
 /// The same for both layouts: only all images together determine which one it is.

@@ -197,7 +197,7 @@ SparseModel UnsizedModel::Take(const std::string& file, const std::string& folde
       names.insert(placed.image.name).second ? fault : "two images are called " + placed.image.name;
     if (!fault.empty())
     {
-      throw Error("Cannot read " + file + ": " + fault + ".");
+      throw Error(std::string("Cannot read ").append(file).append(": ").append(fault).append("."));
     }
     model.cameras.push_back(std::move(camera));
     model.images.push_back(std::move(placed.image));

@@ -17,8 +17,8 @@ class TextSource;
 /// counted from a corner: where no observation lies left of or beyond that corner although points do lie
 /// to all sides of the optical axes, pixels are taken to be counted from there.
 ///
-/// The principal point is the middle of the image where the file does not give it. Sizes are those of the images where they are
-/// found. Else the size is the smallest even one that holds all observations or, where pixels are counted
+/// The principal point is the middle of the image where the file does not give it. Sizes are those of the images where
+/// they are found. Else the size is the smallest even one that holds all observations or, where pixels are counted
 /// from a corner, the one whose middle the observations and their points put there, to the half pixel.
 class UnsizedModel
 {

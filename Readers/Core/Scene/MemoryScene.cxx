@@ -2,9 +2,8 @@
 #include "Scene/MemoryScene.h"
 
 #include "Common/Error.h"
+#include "SparseModel/ModelBuilder.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -40,27 +39,14 @@ void Check(const MemoryImage& image)
   }
 }
 
-// The number of the camera that the images of these intrinsics share.
-std::uint32_t LensOf(const Camera& camera, SparseModel& model)
+SparseCamera LensOf(const Camera& camera)
 {
   const Eigen::Matrix3d& K = camera.K;
   SparseCamera lens;
-  lens.id = static_cast<std::uint32_t>(model.cameras.size() + 1);
+  lens.parameters = { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
   lens.width = static_cast<std::uint64_t>(camera.width);
   lens.height = static_cast<std::uint64_t>(camera.height);
-  lens.parameters = { K(0, 0), K(1, 1), K(0, 2), K(1, 2) };
-  const auto same = std::find_if(model.cameras.begin(), model.cameras.end(),
-    [&](const SparseCamera& known)
-    {
-      return known.width == lens.width && known.height == lens.height &&
-        known.parameters == lens.parameters;
-    });
-  if (same != model.cameras.end())
-  {
-    return same->id;
-  }
-  model.cameras.push_back(lens);
-  return lens.id;
+  return lens;
 }
 
 void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images)
@@ -99,6 +85,7 @@ MemoryScene::MemoryScene(const std::vector<MemoryImage>& images, std::vector<Clu
   {
     throw Error("There are no images.");
   }
+  ModelBuilder lenses("the images", "");
   std::map<std::string, cv::Mat> pixels;
   for (const MemoryImage& given : images)
   {
@@ -110,12 +97,13 @@ MemoryScene::MemoryScene(const std::vector<MemoryImage>& images, std::vector<Clu
     SparseImage& image = this->model.images.emplace_back();
     image.id = static_cast<std::uint32_t>(this->model.images.size());
     image.name = given.name;
-    image.camera = LensOf(given.camera, this->model);
+    image.camera = lenses.AddCamera(LensOf(given.camera));
     const Eigen::Quaterniond q(given.camera.R);
     image.rotation = { q.w(), q.x(), q.y(), q.z() };
     image.matrix = given.camera.R;
     image.translation = given.camera.t;
   }
+  this->model.cameras = lenses.Take().cameras;
   std::set<std::string> names;
   for (const Cluster& cluster : clusters)
   {

@@ -32,7 +32,7 @@ std::array<std::string, 3> ReadTriplet(const JsonNode& node, const std::string& 
   {
     node.Fail("a triplet has three images");
   }
-  const std::array<std::string, 3> triplet = { elements[0].Text(), elements[1].Text(),
+  std::array<std::string, 3> triplet = { elements[0].Text(), elements[1].Text(),
     elements[2].Text() };
   if (triplet[1] != reference)
   {

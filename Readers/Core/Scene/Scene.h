@@ -60,7 +60,8 @@ struct Board
 ///
 /// `images` and `model`, any that FindModel finds, are relative to the file. So is the optional
 /// `masks`: a folder of masks, each named after its image with .png appended (l.jpg.png), as COLMAP has them;
-/// black pixels of a mask are ignored in the image. `clusters` and `board` are optional. A chessboard has "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
+/// black pixels of a mask are ignored in the image. `clusters` and `board` are optional. A chessboard has
+/// "type": "chessboard", "corners": [9, 6] (inner ones) and "square_m".
 struct Scene
 {
   std::string file;              ///< the scene.json

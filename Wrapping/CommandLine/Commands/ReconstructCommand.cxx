@@ -63,8 +63,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
 {
   if (vtkSparseModelReader::CanReadFile(settings.scene))
   {
-    const auto features =
-      settings.sparse.Run(session, settings.scene, settings.triangulate.MinimumSupport());
+    const auto features = settings.sparse.Run(session, settings.scene);
     return settings.densify.IsWanted()
       ? settings.densify.Run(session, settings.scene, features, settings.stereo)
       : features;

@@ -4,7 +4,6 @@
 #include "Output/ViewFiles.h"
 #include "Session/Session.h"
 #include "Stages/SparseStage.h"
-#include "Stages/TriangulateStage.h"
 
 #include <vtkMultiBlockDataSet.h>
 
@@ -21,7 +20,6 @@ struct Settings
   std::string model;
   std::string output;
   SparseStage sparse;
-  int support = OutlierOptions().support;
 };
 
 }
@@ -40,14 +38,12 @@ void AddSparseCommand(CLI::App& program, Session& session)
     ->required()
     ->type_name("FEATURES.vtm");
   settings->sparse.AddOptions(*command);
-  AddSupportOption(*command, settings->support, "Structure-from-motion model");
   command->footer("Example:\n  freespace sparse colmap/sparse/0 -o features.vtm");
   command->callback(session.Defer(
     [settings, &session]()
     {
       CheckViewsName(settings->output);
-      WriteViews(session, settings->sparse.Run(session, settings->model, settings->support),
-        settings->output);
+      WriteViews(session, settings->sparse.Run(session, settings->model), settings->output);
     }));
 }
 

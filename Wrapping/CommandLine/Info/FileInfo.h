@@ -14,7 +14,7 @@ namespace freespace
 
 class Session;
 
-/// The content of a file that the program can read: a surface, features or disparity maps, a scene, a camera model, a
+/// The content of a file that the program can read: a surface, features or disparity maps, a scene, a camera model, an
 /// image. Each value is a number, a word, a list of these, or such an object. Throws Error naming the file when
 /// it cannot be read.
 nlohmann::ordered_json InfoOf(Session& session, const std::string& fileName);

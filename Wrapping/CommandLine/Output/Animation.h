@@ -16,7 +16,8 @@ namespace freespace
 
 class Session;
 
-/// A sequence of pictures as an Ogg Theora film, the only format for which every VTK has a writer. The file is made beside its target and renamed by Finish.
+/// A sequence of pictures as an Ogg Theora film, the only format for which every VTK has a writer. The file is made
+/// beside its target and renamed by Finish.
 class Animation
 {
 public:

@@ -30,11 +30,12 @@ void SparseStage::AddOptions(CLI::App& command)
     ->check(NonNegative())
     ->capture_default_str()
     ->group("Structure-from-motion model");
+  this->Support.AddTo(command, "Structure-from-motion model");
   this->WrongImages.AddTo(command, "Structure-from-motion model");
 }
 
 vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
-  Session& session, const std::string& model, int minimumSupport) const
+  Session& session, const std::string& model) const
 {
   if (const std::string told = FindModel(model).told; !told.empty())
   {
@@ -49,7 +50,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> SparseStage::Run(
   session.Run(reader, "sparse");
   vtkNew<vtkOutlierFilter> outliers;
   outliers->SetInputConnection(reader->GetOutputPort());
-  outliers->SetSupport(minimumSupport);
+  outliers->SetSupport(this->Support.Support());
+  outliers->SetSharingViews(this->Support.SharingViews());
   outliers->SetSupportRadius(2);
   session.Run(outliers, "outliers");
   vtkSmartPointer<vtkMultiBlockDataSet> features = outliers->GetOutput();

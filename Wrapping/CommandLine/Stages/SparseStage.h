@@ -3,6 +3,7 @@
 #define freespace_SparseStage_h
 
 #include "SparseModel/SparseViews.h"
+#include "Stages/SupportOption.h"
 #include "Stages/WrongImagesOption.h"
 
 #include <CLI/CLI.hpp>
@@ -23,13 +24,13 @@ class SparseStage
 {
 public:
   void AddOptions(CLI::App& command);
-  vtkSmartPointer<vtkMultiBlockDataSet> Run(
-    Session& session, const std::string& model, int minimumSupport) const;
+  vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& model) const;
 
 private:
   int MinimumTrackLength = SparseViewOptions().minimumTrackLength;
   double MaximumError = SparseViewOptions().maximumError;
   double MinimumAngle = SparseViewOptions().minimumAngle;
+  SupportOption Support;
   WrongImagesOption WrongImages;
 };
 

@@ -32,28 +32,9 @@ bool AreIsolated(vtkMultiBlockDataSet* features)
 
 }
 
-void AddSupportOption(CLI::App& command, int& support, const std::string& group)
-{
-  command
-    .add_option("--support", support,
-      "Minimum number of neighbours of a feature with a similar depth; one with fewer is an "
-      "outlier; "
-      "0 keeps all")
-    ->check(NonNegative())
-    ->capture_default_str()
-    ->group(group);
-}
-
 void TriangulateStage::AddOptions(CLI::App& command)
 {
-  AddSupportOption(command, this->Support, "Disparity maps");
-  command
-    .add_option("--sharing-views", this->SharingViews,
-      "A feature that this number of views share needs no support, such as the points of a "
-      "structure-from-motion model; 0: all need it")
-    ->check(NonNegative())
-    ->capture_default_str()
-    ->group("Disparity maps");
+  this->Support.AddTo(command, "Disparity maps");
   command
     .add_option("--support-radius", this->SupportRadius,
       "Neighbourhood of a feature in mean distances between features; 0: its six nearest in the "
@@ -131,8 +112,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetFeatureSpacing(this->FeatureSpacing);
   maps->SetPartnerViews(this->PartnerViews);
   maps->SetTolerance(this->Tolerance);
-  maps->SetSupport(this->Support);
-  maps->SetSharingViews(this->SharingViews);
+  maps->SetSupport(this->Support.Support());
+  maps->SetSharingViews(this->Support.SharingViews());
   maps->SetSupportRadius(this->SupportRadius);
   maps->SetSeeThroughViews(this->SeeThroughViews);
   maps->SetViolatingFeatures(this->ViolatingFeatures);

@@ -3,6 +3,7 @@
 #define freespace_TriangulateStage_h
 
 #include "Disparity/Maps/DisparityMaps.h"
+#include "Stages/SupportOption.h"
 
 #include <CLI/CLI.hpp>
 
@@ -17,9 +18,6 @@ namespace freespace
 
 class Session;
 
-/// The minimum support of a feature, of one name for all commands.
-void AddSupportOption(CLI::App& command, int& support, const std::string& group);
-
 /// features -> disparity maps: vtkDelaunayDisparityFilter.
 ///
 /// Has the options that its own command and `reconstruct` share. Run throws Error when it fails.
@@ -29,12 +27,8 @@ public:
   void AddOptions(CLI::App& command);
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, vtkMultiBlockDataSet* features) const;
 
-  /// Minimum number of neighbours that a feature needs.
-  int MinimumSupport() const { return this->Support; }
-
 private:
-  int Support = OutlierOptions().support;
-  int SharingViews = OutlierOptions().sharingViews;
+  SupportOption Support;
   double SupportRadius = OutlierOptions().radius;
   int SeeThroughViews = OutlierOptions().seeThroughViews;
   int ViolatingFeatures = OutlierOptions().violatingFeatures;

@@ -14,9 +14,9 @@ namespace freespace
 double MeanSpacing(const View& view);
 
 /// For each feature, how many others within the radius (pixels, > 0) agree with its disparity: they differ by no more
-/// than the tolerance, a fraction of the greater one. Features that are not finite or not in front of the camera give no support and count -1.
-/// Counts above a thousand may be too low: features that lie upon each other by the million take no
-/// longer than others. O(n log n).
+/// than the tolerance, a fraction of the greater one. Features that are not finite or not in front of the camera give
+/// no support and count -1. Counts above a thousand may be too low: features that lie upon each other by the million
+/// take no longer than others. O(n log n).
 std::vector<int> CountSupport(const View& view, double radius, double tolerance);
 
 }
