@@ -115,6 +115,18 @@ inline cv::Mat Render(
   return image;
 }
 
+/// A camera at (x, 0, 0) that looks along +z. The axes of all of them are parallel, so that a point at
+/// depth z moves by focalLength * baseline / z pixels along its row from one to another.
+inline Camera ParallelCamera(double x, int width, int height, double focalLength)
+{
+  Camera camera;
+  camera.K << focalLength, 0, width / 2.0, 0, focalLength, height / 2.0, 0, 0, 1;
+  camera.width = width;
+  camera.height = height;
+  camera.t = Eigen::Vector3d(-x, 0, 0);
+  return camera;
+}
+
 /// A camera at a place, turned to look at a target, with y down.
 inline Camera LookAt(const Eigen::Vector3d& center, const Eigen::Vector3d& target)
 {

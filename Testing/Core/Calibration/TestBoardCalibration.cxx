@@ -84,29 +84,6 @@ void ExpectCameras(const BoardCalibration& calibration, const std::vector<Calibr
   }
 }
 
-// Every corner that the image shows, but for those near its border or near what hides a part, was found.
-void ExpectAllFound(const BoardCorners& corners, const CalibratedImage& camera,
-  const std::vector<Eigen::Vector3d>& points, const cv::Rect& hidden)
-{
-  constexpr int margin = 30; // about a square
-  const cv::Rect inner(
-    margin, margin, camera.camera.width - 2 * margin, camera.camera.height - 2 * margin);
-  const cv::Rect about(
-    hidden.x - margin, hidden.y - margin, hidden.width + 2 * margin, hidden.height + 2 * margin);
-  int expected = 0;
-  for (std::size_t id = 0; id < points.size(); ++id)
-  {
-    const Eigen::Vector2d truth = camera.camera.Project(points[id]);
-    const cv::Point pixel(truth.x(), truth.y());
-    if (inner.contains(pixel) && !(hidden.area() > 0 && about.contains(pixel)))
-    {
-      ++expected;
-      EXPECT_EQ(std::count(corners.ids.begin(), corners.ids.end(), static_cast<int>(id)), 1) << id;
-    }
-  }
-  EXPECT_GE(expected, 9) << "corners to be found";
-}
-
 void ExpectError(const std::function<void()>& action, const std::vector<std::string>& words)
 {
   try
@@ -155,62 +132,6 @@ TEST(BoardFromText, Malformed)
   {
     EXPECT_THROW(BoardFromText(text), Error) << text;
   }
-}
-
-TEST(BoardDetection, CornersAreExact)
-{
-  for (const std::string& text : { charuco, chessboard })
-  {
-    const Board board = BoardFromText(text);
-    const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
-    const cv::Mat picture = BoardRendering(board).Render(camera);
-    const BoardCorners detected = DetectBoard(picture, board);
-    const BoardCorners corners = FindBoardCorners(picture, board, camera);
-    const std::vector<Eigen::Vector3d> points = BoardPoints(board);
-    EXPECT_GE(detected.ids.size(), points.size() - 2) << "a marker may be missed";
-    EXPECT_GE(corners.ids.size(), points.size() - 2);
-    for (std::size_t i = 0; i < corners.ids.size(); ++i)
-    {
-      const Eigen::Vector2d truth = camera.camera.Project(points[corners.ids[i]]);
-      EXPECT_LT((corners.pixels[i] - truth).norm(), 0.12) << text << " corner " << corners.ids[i];
-    }
-    for (std::size_t i = 0; i < detected.ids.size(); ++i)
-    {
-      const Eigen::Vector2d truth = camera.camera.Project(points[detected.ids[i]]);
-      EXPECT_LT((detected.pixels[i] - truth).norm(), 1.5) << text << " corner " << detected.ids[i];
-    }
-  }
-}
-
-// A wrong corner is worse than a missing one.
-TEST(BoardDetection, HiddenCornersAreNotFound)
-{
-  const Board board = BoardFromText(charuco);
-  const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
-  cv::Mat picture = BoardRendering(board).Render(camera);
-  const cv::Rect hidden(150, 100, 120, 120);
-  cv::rectangle(picture, hidden, { 120 }, cv::FILLED);
-  const BoardCorners corners = FindBoardCorners(picture, board, camera);
-  const std::vector<Eigen::Vector3d> points = BoardPoints(board);
-  ExpectAllFound(corners, camera, points, hidden);
-  for (std::size_t i = 0; i < corners.ids.size(); ++i)
-  {
-    const Eigen::Vector2d truth = camera.camera.Project(points[corners.ids[i]]);
-    EXPECT_FALSE(hidden.contains(cv::Point(truth.x(), truth.y())));
-    EXPECT_LT((corners.pixels[i] - truth).norm(), 0.1);
-  }
-}
-
-TEST(BoardDetection, DictionaryThatIsUnknownOrTooSmall)
-{
-  const cv::Mat gray(100, 100, CV_8U, cv::Scalar(128));
-  Board board = BoardFromText(charuco);
-  board.dictionary = "DICT_3X3";
-  ExpectError([&]() { DetectBoard(gray, board); }, { "DICT_3X3" });
-  board.dictionary = "DICT_5X5_50";
-  board.columns = 15;
-  board.rows = 15;
-  ExpectError([&]() { DetectBoard(gray, board); }, { "DICT_5X5_50", "50 markers" });
 }
 
 TEST(BoardCalibration, CharucoThatIsPartlyHidden)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Epipolar/DisparityRange.h"
 
+#include "Support/SyntheticImages.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
@@ -10,15 +12,9 @@ using namespace freespace;
 namespace
 {
 
-// Looks along +z from (x, 0, 0); 640 x 480 pixels of focal length 500.
 Camera At(double x)
 {
-  Camera camera;
-  camera.K << 500, 0, 320, 0, 500, 240, 0, 0, 1;
-  camera.width = 640;
-  camera.height = 480;
-  camera.t = Eigen::Vector3d(-x, 0, 0);
-  return camera;
+  return ParallelCamera(x, 640, 480, 500);
 }
 
 Camera RandomCamera(std::mt19937& random)

@@ -2,6 +2,8 @@
 // The index of chains against a search over all pieces.
 #include "Epipolar/EpipolarIndex.h"
 
+#include "Support/SyntheticImages.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -14,12 +16,7 @@ namespace
 
 Camera At(double x)
 {
-  Camera camera;
-  camera.K << 400, 0, 160, 0, 400, 120, 0, 0, 1;
-  camera.width = 320;
-  camera.height = 240;
-  camera.t = Eigen::Vector3d(-x, 0, 0);
-  return camera;
+  return ParallelCamera(x, 320, 240, 400);
 }
 
 // Chains that wander over the image in steps of about a pixel.
