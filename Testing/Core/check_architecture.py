@@ -7,6 +7,7 @@
 - No file of a Core folder includes a VTK header.
 - No include cycle between files, and none between folders.
 - No code file has more than 500 lines, no folder more than 20 files, no function more than 80 lines.
+- The files and functions of the table in ARCHITECTURE.md exist.
 
 Prints each fault and exits with 1 if there is one.
 """
@@ -166,6 +167,29 @@ def check_functions(source, faults):
         faults.append(f'No functions under {source}.')
 
 
+def check_table(source, faults):
+    """The way of a feature: a row has files, those after the first perhaps without their folder, and functions."""
+    with open(os.path.join(source, 'ARCHITECTURE.md'), encoding='utf-8') as text:
+        rows = re.findall(r'^\| .* \| (`.*`) \| (.*`.*) \|$', text.read(), re.M)
+    if not rows:
+        faults.append('ARCHITECTURE.md has no table of files and functions.')
+    for files, functions in rows:
+        code, folder = '', ''
+        for name in re.findall(r'`([^`]+)`', files):
+            folder = os.path.dirname(name) or folder
+            path = os.path.join(folder, os.path.basename(name))
+            if not os.path.exists(os.path.join(source, path)):
+                faults.append(f'ARCHITECTURE.md names {path}, which is not there.')
+                continue
+            for file in {path, path.replace('.cxx', '.h')}:
+                if os.path.exists(os.path.join(source, file)):
+                    with open(os.path.join(source, file), encoding='utf-8') as text:
+                        code += text.read()
+        for function in re.findall(r'`([^`]+)`', functions):
+            if not re.search(r'\b' + re.escape(function.split('::')[-1]) + r'\b', code):
+                faults.append(f'ARCHITECTURE.md names {function}, which is not in {files}.')
+
+
 def main():
     source = sys.argv[1]
     faults = []
@@ -173,6 +197,7 @@ def main():
     check_cycles(source, faults)
     check_sizes(source, faults)
     check_functions(source, faults)
+    check_table(source, faults)
     print('\n'.join(faults) if faults else 'The architecture is kept.')
     sys.exit(1 if faults else 0)
 
