@@ -152,10 +152,10 @@ TEST(StereoInMemory, FaultsOfImagesInMemoryAreNamed)
     { "a known image|names an image that is not there, x.png",
       [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*)
       { reader->AddTriplet("b", "l.png", "c.png", "x.png"); } },
-    { "one reference|has the references c.png and l.png",
+    { "one reference|does not have the reference c.png in its middle",
       [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*)
       { reader->AddTriplet("a", "c.png", "l.png", "r.png"); } },
-    { "three images|has a triplet with an image twice",
+    { "three images|has an image twice",
       [](vtkEdgeStereoReader* reader, vtkMultiBlockDataSet*)
       { reader->AddTriplet("a", "l.png", "c.png", "l.png"); } },
     { "an image|The image l.png is not a vtkImageData",

@@ -2,6 +2,7 @@
 #include "Scene/MemoryScene.h"
 
 #include "Common/Error.h"
+#include "Scene/ClusterFaults.h"
 #include "SparseModel/ModelBuilder.h"
 
 #include <map>
@@ -49,8 +50,11 @@ SparseCamera LensOf(const Camera& camera)
   return lens;
 }
 
-void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images)
+// Among others, whose names it is added to.
+void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images,
+  std::set<std::string>& names)
 {
+  std::string fault = ClusterFault(cluster, names);
   for (const auto& triplet : cluster.triplets)
   {
     for (const std::string& name : triplet)
@@ -61,19 +65,11 @@ void Check(const Cluster& cluster, const std::map<std::string, cv::Mat>& images)
           "The cluster " + cluster.name + " names an image that is not there, " + name + ".");
       }
     }
-    if (triplet[1] != cluster.reference)
-    {
-      throw Error("The cluster " + cluster.name + " has the references " + cluster.reference +
-        " and " + triplet[1] + ".");
-    }
-    if (triplet[0] == triplet[1] || triplet[1] == triplet[2] || triplet[2] == triplet[0])
-    {
-      throw Error("The cluster " + cluster.name + " has a triplet with an image twice.");
-    }
+    fault = fault.empty() ? TripletFault(triplet, cluster.reference) : fault;
   }
-  if (cluster.triplets.empty())
+  if (!fault.empty())
   {
-    throw Error("The cluster " + cluster.name + " has no triplet.");
+    throw Error("The cluster " + cluster.name + " is not valid: " + fault + ".");
   }
 }
 
@@ -107,11 +103,7 @@ MemoryScene::MemoryScene(const std::vector<MemoryImage>& images, std::vector<Clu
   std::set<std::string> names;
   for (const Cluster& cluster : clusters)
   {
-    Check(cluster, pixels);
-    if (!names.insert(cluster.name).second)
-    {
-      throw Error("Two clusters are called " + cluster.name + ".");
-    }
+    Check(cluster, pixels, names);
   }
   this->scene.file = "in memory";
   this->scene.clusters = std::move(clusters);

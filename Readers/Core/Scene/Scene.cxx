@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Files/PathChecks.h"
 #include "Scene/Scene.h"
 
-#include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Files/AtomicOutput.h"
 #include "Files/NameEncoding.h"
+#include "Files/PathChecks.h"
 #include "Images/ImageFile.h"
 #include "ModelFiles/ForeignModel.h"
 #include "ModelFiles/ReadSparseModel.h"
+#include "Scene/ClusterFaults.h"
 #include "Scene/ScaledImages.h"
 #include "Text/JsonNode.h"
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <unordered_set>
 
 namespace freespace
@@ -34,13 +36,10 @@ std::array<std::string, 3> ReadTriplet(const JsonNode& node, const std::string& 
   }
   std::array<std::string, 3> triplet = { elements[0].Text(), elements[1].Text(),
     elements[2].Text() };
-  if (triplet[1] != reference)
+  const std::string fault = TripletFault(triplet, reference);
+  if (!fault.empty())
   {
-    node.Fail("a triplet has the reference " + reference + " in its middle");
-  }
-  if (triplet[0] == triplet[1] || triplet[1] == triplet[2] || triplet[2] == triplet[0])
-  {
-    node.Fail("a triplet has three different images");
+    node.Fail(fault);
   }
   return triplet;
 }
@@ -60,23 +59,20 @@ Cluster ReadCluster(const JsonNode& node)
   {
     cluster.triplets.push_back(ReadTriplet(triplet, cluster.reference));
   }
-  if (cluster.triplets.empty())
-  {
-    node.Fail("the cluster " + cluster.name + " has no triplet");
-  }
   return cluster;
 }
 
 std::vector<Cluster> ReadClusters(const JsonNode& node)
 {
   std::vector<Cluster> clusters;
-  std::unordered_set<std::string> names;
+  std::set<std::string> names;
   for (const JsonNode& element : node.Elements())
   {
     clusters.push_back(ReadCluster(element));
-    if (!names.insert(clusters.back().name).second)
+    const std::string fault = ClusterFault(clusters.back(), names);
+    if (!fault.empty())
     {
-      element.Fail("two clusters are called " + clusters.back().name);
+      element.Fail(fault);
     }
   }
   if (clusters.empty())

@@ -193,8 +193,8 @@ TEST(Scene, Triplets)
   { return WithClusters(R"([{ "name": "one", "reference": "c", "triplets": )" + triplets + "}]"); };
   ExpectError(withTriplets(R"([["c", "l", "r"]])"), { "'triplets'[0]", "reference c", "middle" });
   ExpectError(withTriplets(R"([["l", "c"]])"), { "'triplets'[0]", "three images" });
-  ExpectError(withTriplets(R"([["l", "c", "l"]])"), { "'triplets'[0]", "different" });
-  ExpectError(withTriplets(R"([["l", "c", "c"]])"), { "'triplets'[0]", "different" });
+  ExpectError(withTriplets(R"([["l", "c", "l"]])"), { "'triplets'[0]", "an image twice" });
+  ExpectError(withTriplets(R"([["l", "c", "c"]])"), { "'triplets'[0]", "an image twice" });
   ExpectError(withTriplets("[]"), { "one", "no triplet" });
 }
 
