@@ -2,7 +2,7 @@
 #include "Disparity/DisparitySurface.h"
 
 #include "Common/Error.h"
-#include "Common/GroupedLists.h"
+#include "Common/MortonOrder.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,37 +13,6 @@ namespace freespace
 
 namespace
 {
-
-// Interleaves the lower 16 bits with zeros, to make room for those of a second number.
-std::uint32_t SpreadBits(std::uint32_t x)
-{
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
-}
-
-using Key = std::pair<std::uint32_t, std::uint32_t>;
-
-// Sorts keys by their first half, stably: a radix sort from the least significant digit.
-void SortByFirst(std::vector<Key>& keys)
-{
-  constexpr int digits = 3, bits = 11;
-  constexpr std::uint32_t mask = (1u << bits) - 1;
-  for (int digit = 0; digit < digits; ++digit)
-  {
-    const int shift = digit * bits;
-    const GroupedLists<Key> sorted(mask + 1,
-      [&](const auto& add)
-      {
-        for (const Key& key : keys)
-        {
-          add(key.first >> shift & mask, key);
-        }
-      });
-    keys = sorted.AllValues();
-  }
-}
 
 // Indices along a space-filling curve (Morton order), so that consecutive points are close
 // together.
@@ -57,18 +26,18 @@ std::vector<std::size_t> SpatialOrder(const Sightings& sightings)
     box.extend(Eigen::Vector2d(sighting.pixel.x(), sighting.pixel.y()));
   }
   const double scale = steps / std::max(box.sizes().maxCoeff(), 1e-9);
-  std::vector<Key> keys;
+  std::vector<KeyedIndex> keys;
   keys.reserve(sightings.size());
   for (const Sighting& sighting : sightings)
   {
-    const auto x = static_cast<std::uint32_t>((sighting.pixel.x() - box.min().x()) * scale);
-    const auto y = static_cast<std::uint32_t>((sighting.pixel.y() - box.min().y()) * scale);
-    keys.emplace_back(SpreadBits(x) | SpreadBits(y) << 1, static_cast<std::uint32_t>(keys.size()));
+    const auto x = static_cast<std::uint16_t>((sighting.pixel.x() - box.min().x()) * scale);
+    const auto y = static_cast<std::uint16_t>((sighting.pixel.y() - box.min().y()) * scale);
+    keys.push_back({ MortonKey(x, y), static_cast<int>(keys.size()) });
   }
-  SortByFirst(keys);
+  SortByKey(keys, 32);
   std::vector<std::size_t> order(keys.size());
   std::transform(
-    keys.begin(), keys.end(), order.begin(), [](const auto& key) { return key.second; });
+    keys.begin(), keys.end(), order.begin(), [](const KeyedIndex& key) { return key.index; });
   return order;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Distance/TriangleTree.h"
 
+#include "Common/MortonOrder.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Mesh/NearestOnTriangle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace freespace
 {
@@ -19,61 +19,22 @@ namespace
 
 constexpr std::size_t LeafSize = 2;     // triangles
 constexpr std::size_t BlockSize = 1024; // points that follow each other on one thread
+constexpr int CurveBits = 63;
 constexpr float Infinity = std::numeric_limits<float>::infinity();
 // What the squared distance to a box may be off for single precision, as a share of it.
 constexpr float Rounding = 1e-6F;
 
-struct Item
-{
-  std::uint64_t key;
-  int index;
-};
-
-/// The 21 lowest bits of a number, each followed by two zeros.
-std::uint64_t Spread(std::uint64_t bits)
-{
-  bits &= 0x1fffff;
-  bits = (bits | bits << 32) & 0x1f00000000ffff;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  return (bits | bits << 2) & 0x1249249249249249;
-}
-
-/// The place along the Z-order curve (Morton) of a point with coordinates in [0, 1].
+/// The place along the Z-order curve of a point with coordinates in [0, 1].
 std::uint64_t CurveKey(const Eigen::Array3d& point)
 {
   constexpr double most = 0x1fffff;
   const auto at = [&](int axis)
-  { return Spread(static_cast<std::uint64_t>(std::clamp(point[axis], 0.0, 1.0) * most)); };
-  return at(0) | at(1) << 1 | at(2) << 2;
-}
-
-/// By key and, as each pass is stable, by the order that they come in.
-void RadixSort(std::vector<Item>& items)
-{
-  constexpr int bits = 11;
-  std::vector<Item> sorted(items.size());
-  for (int shift = 0; shift < 63; shift += bits)
-  {
-    const auto digit = [shift](const Item& item)
-    { return (item.key >> shift) & ((1U << bits) - 1); };
-    std::array<std::size_t, (1U << bits) + 1> begin = {};
-    for (const Item& item : items)
-    {
-      ++begin[digit(item) + 1];
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for (const Item& item : items)
-    {
-      sorted[begin[digit(item)]++] = item;
-    }
-    items.swap(sorted);
-  }
+  { return static_cast<std::uint32_t>(std::clamp(point[axis], 0.0, 1.0) * most); };
+  return MortonKey(at(0), at(1), at(2));
 }
 
 /// Where to part items in the order of their keys: near the middle, and where the curve leaves the largest box.
-std::size_t PlaceToPart(const std::vector<Item>& items, std::size_t begin, std::size_t end)
+std::size_t PlaceToPart(const std::vector<KeyedIndex>& items, std::size_t begin, std::size_t end)
 {
   const std::size_t count = end - begin, middle = begin + count / 2;
   std::size_t best = middle;
@@ -142,7 +103,7 @@ std::size_t TriangleTree::FirstOf(int level, std::size_t node) const
 void TriangleTree::Sort(const TriangleMesh& mesh, const ParallelFor& parallelFor)
 {
   Eigen::AlignedBox3d bounds;
-  std::vector<Item> items;
+  std::vector<KeyedIndex> items;
   items.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
@@ -175,7 +136,7 @@ void TriangleTree::Sort(const TriangleMesh& mesh, const ParallelFor& parallelFor
   const double scale = side > 0 ? 1 / side : 0;
   forItems([&](std::size_t i, const Vector3d& a, const Vector3d& b, const Vector3d& c)
     { items[i].key = CurveKey(((a + b + c) / 3 - bounds.min()).array() * scale); });
-  RadixSort(items);
+  SortByKey(items, CurveBits);
   this->Indices.resize(items.size());
   this->Triangles.resize(items.size());
   while ((items.size() >> (2 * this->Depth)) >= LeafSize)
