@@ -24,12 +24,6 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
 {
   const freespace::DisparityMapOptions options;
   this->FeatureSpacing = options.thinning.spacing;
-  this->Support = options.outliers.support;
-  this->SharingViews = options.outliers.sharingViews;
-  this->SupportRadius = options.outliers.radius;
-  this->SupportTolerance = options.outliers.tolerance;
-  this->SeeThroughViews = options.outliers.seeThroughViews;
-  this->ViolatingFeatures = options.outliers.violatingFeatures;
   this->MinimumDisparity = options.disparity.minimumDisparity;
   this->Tolerance = options.disparity.tolerance;
   this->KeepEdges = options.disparity.keepEdges;
@@ -46,12 +40,7 @@ freespace::DisparityMapOptions vtkDelaunayDisparityFilter::Options() const
 {
   freespace::DisparityMapOptions options;
   options.thinning.spacing = this->FeatureSpacing;
-  options.outliers.support = this->Support;
-  options.outliers.sharingViews = this->SharingViews;
-  options.outliers.radius = this->SupportRadius;
-  options.outliers.tolerance = this->SupportTolerance;
-  options.outliers.seeThroughViews = this->SeeThroughViews;
-  options.outliers.violatingFeatures = this->ViolatingFeatures;
+  options.outliers = this->Outliers();
   options.disparity.minimumDisparity = this->MinimumDisparity != 0;
   options.disparity.tolerance = this->Tolerance;
   options.disparity.keepEdges = this->KeepEdges != 0;
@@ -63,12 +52,6 @@ freespace::DisparityMapOptions vtkDelaunayDisparityFilter::Options() const
   options.trim.longestEdge = this->LongestEdge;
   options.trim.greatestDepth = this->GreatestDepthRatio;
   return options;
-}
-
-int vtkDelaunayDisparityFilter::FillInputPortInformation(int, vtkInformation* info)
-{
-  freespace::AcceptViews(info);
-  return 1;
 }
 
 int vtkDelaunayDisparityFilter::RequestData(
@@ -106,12 +89,6 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FeatureSpacing: " << this->FeatureSpacing << "\n";
-  os << indent << "Support: " << this->Support << "\n";
-  os << indent << "SharingViews: " << this->SharingViews << "\n";
-  os << indent << "SupportRadius: " << this->SupportRadius << "\n";
-  os << indent << "SupportTolerance: " << this->SupportTolerance << "\n";
-  os << indent << "SeeThroughViews: " << this->SeeThroughViews << "\n";
-  os << indent << "ViolatingFeatures: " << this->ViolatingFeatures << "\n";
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";

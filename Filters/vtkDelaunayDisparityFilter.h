@@ -12,8 +12,8 @@
  * **Outliers.** One outlier in front of the scene would reach every other view through the minimum
  * disparity constraint. A feature is dropped when fewer than Support features in its neighbourhood in the
  * image have a similar disparity (end of section 2.2), and, beyond the paper, when it is in the free space of
- * SeeThroughViews other views, or behind triangles that ViolatingFeatures features of other views violate. See
- * vtkOutlierFilter, which is this step alone.
+ * SeeThroughViews other views, or behind triangles that ViolatingFeatures features of other views violate. This
+ * step and its settings are those of the superclass, vtkOutlierFilter.
  *
  * **Disparity.** The features of each view are triangulated in its image (Delaunay); their disparity
  * (1 / depth) is interpolated linearly. Disparity is affine over the image of a plane, so each triangle of
@@ -56,18 +56,18 @@
 #define vtkDelaunayDisparityFilter_h
 
 #include "vtkFreespaceFiltersModule.h" // for the export macro
-#include "vtkMultiBlockDataSetAlgorithm.h"
+#include "vtkOutlierFilter.h"
 
 namespace freespace
 {
 struct DisparityMapOptions;
 }
 
-class VTKFREESPACEFILTERS_EXPORT vtkDelaunayDisparityFilter : public vtkMultiBlockDataSetAlgorithm
+class VTKFREESPACEFILTERS_EXPORT vtkDelaunayDisparityFilter : public vtkOutlierFilter
 {
 public:
   static vtkDelaunayDisparityFilter* New();
-  vtkTypeMacro(vtkDelaunayDisparityFilter, vtkMultiBlockDataSetAlgorithm);
+  vtkTypeMacro(vtkDelaunayDisparityFilter, vtkOutlierFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   // Thinning.
@@ -79,62 +79,6 @@ public:
    */
   vtkSetMacro(FeatureSpacing, double);
   vtkGetMacro(FeatureSpacing, double);
-  ///@}
-
-  // Outliers, as in vtkOutlierFilter.
-
-  ///@{
-  /**
-   * Minimum number of features in the neighbourhood of a feature with a similar disparity; 0 keeps all. Default 2.
-   */
-  vtkSetMacro(Support, int);
-  vtkGetMacro(Support, int);
-  ///@}
-
-  ///@{
-  /**
-   * A feature that at least this number of views have at exactly the same place, as the views of a
-   * structure-from-motion model have, needs no support; 0: all need it, otherwise at least 2. Default 3.
-   */
-  vtkSetMacro(SharingViews, int);
-  vtkGetMacro(SharingViews, int);
-  ///@}
-
-  ///@{
-  /**
-   * The neighbourhood. 0, the default: the six nearest features in the image, within two triangles. Otherwise the
-   * features within so many mean distances between the features of the view: 2, for isolated points, has about 12.
-   */
-  vtkSetMacro(SupportRadius, double);
-  vtkGetMacro(SupportRadius, double);
-  ///@}
-
-  ///@{
-  /**
-   * Maximum difference of similar disparities within SupportRadius, as a fraction of the greater one. Default 0.05.
-   */
-  vtkSetMacro(SupportTolerance, double);
-  vtkGetMacro(SupportTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * A feature is dropped if it is in the free space of at least this number of other views, and of more than
-   * have it on their surface. 0, the default and the paper, drops none.
-   */
-  vtkSetMacro(SeeThroughViews, int);
-  vtkGetMacro(SeeThroughViews, int);
-  ///@}
-
-  ///@{
-  /**
-   * A triangle is wrong if at least this number of supported features of other views violate the constraint
-   * on it, and more than lie on it. A feature is dropped, before the constraint is enforced, if it is the
-   * farthest corner of wrong triangles over most of the angle around it. 0, the default and the paper,
-   * drops none.
-   */
-  vtkSetMacro(ViolatingFeatures, int);
-  vtkGetMacro(ViolatingFeatures, int);
   ///@}
 
   // Disparity.
@@ -241,17 +185,10 @@ protected:
   vtkDelaunayDisparityFilter();
   ~vtkDelaunayDisparityFilter() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   // Defaults are those of freespace::DisparityMapOptions.
   double FeatureSpacing;
-  int Support;
-  int SharingViews;
-  double SupportRadius;
-  double SupportTolerance;
-  int SeeThroughViews;
-  int ViolatingFeatures;
   vtkTypeBool MinimumDisparity;
   double Tolerance;
   vtkTypeBool KeepEdges;

@@ -33,6 +33,18 @@ vtkOutlierFilter::vtkOutlierFilter()
   this->ViolatingFeatures = options.violatingFeatures;
 }
 
+freespace::OutlierOptions vtkOutlierFilter::Outliers() const
+{
+  freespace::OutlierOptions options;
+  options.support = this->Support;
+  options.sharingViews = this->SharingViews;
+  options.radius = this->SupportRadius;
+  options.tolerance = this->SupportTolerance;
+  options.seeThroughViews = this->SeeThroughViews;
+  options.violatingFeatures = this->ViolatingFeatures;
+  return options;
+}
+
 namespace
 {
 
@@ -96,19 +108,12 @@ int vtkOutlierFilter::RequestData(
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
-  freespace::OutlierOptions options;
-  options.support = this->Support;
-  options.sharingViews = this->SharingViews;
-  options.radius = this->SupportRadius;
-  options.tolerance = this->SupportTolerance;
-  options.seeThroughViews = this->SeeThroughViews;
-  options.violatingFeatures = this->ViolatingFeatures;
   try
   {
     const auto input = freespace::ViewsOf(inputVector[0]);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
     const auto accepted = freespace::AcceptedFeatures(
-      views, options, {}, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
+      views, this->Outliers(), {}, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
     for (std::size_t i = 0; i < views.size(); ++i)
     {
       const unsigned int index = static_cast<unsigned int>(i);

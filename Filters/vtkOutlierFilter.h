@@ -25,6 +25,11 @@
 #include "vtkFreespaceFiltersModule.h" // for the export macro
 #include "vtkMultiBlockDataSetAlgorithm.h"
 
+namespace freespace
+{
+struct OutlierOptions;
+}
+
 class VTKFREESPACEFILTERS_EXPORT vtkOutlierFilter : public vtkMultiBlockDataSetAlgorithm
 {
 public:
@@ -92,6 +97,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  freespace::OutlierOptions Outliers() const;
 
   // Defaults are those of freespace::OutlierOptions.
   int Support;

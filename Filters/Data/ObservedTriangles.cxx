@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/ObservedTriangles.h"
 
+#include "Common/GroupedLists.h"
 #include "Contour/Lattice/ContourField.h"
 #include "Mesh/SurfaceComponents.h"
 
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -98,52 +98,46 @@ struct Rotated
   }
 };
 
-// All triangles, those with the same smallest corner together.
-std::vector<Rotated> ByFirstCorner(vtkCellArray* cells, vtkIdType points)
+// The triangles by their smallest corner.
+GroupedLists<Rotated> ByFirstCorner(vtkCellArray* cells, vtkIdType points)
 {
-  std::vector<Rotated> given(cells->GetNumberOfCells());
-  std::vector<std::size_t> begin(points + 1, 0);
-  for (vtkIdType t = 0; t < cells->GetNumberOfCells(); ++t)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    cells->GetCellAtId(t, size, ids);
-    Rotated& rotated = given[t];
-    rotated = { { ids[0], ids[1], ids[2] }, t };
-    std::rotate(rotated.corners.begin(),
-      std::min_element(rotated.corners.begin(), rotated.corners.end()), rotated.corners.end());
-    ++begin[rotated.corners[0] + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Rotated> ordered(given.size());
-  for (const Rotated& rotated : given)
-  {
-    ordered[begin[rotated.corners[0]]++] = rotated;
-  }
-  return ordered;
+  return GroupedLists<Rotated>(points,
+    [&](const auto& add)
+    {
+      for (vtkIdType t = 0; t < cells->GetNumberOfCells(); ++t)
+      {
+        vtkIdType size;
+        const vtkIdType* ids;
+        cells->GetCellAtId(t, size, ids);
+        Rotated rotated = { { ids[0], ids[1], ids[2] }, t };
+        std::rotate(rotated.corners.begin(),
+          std::min_element(rotated.corners.begin(), rotated.corners.end()), rotated.corners.end());
+        add(rotated.corners[0], rotated);
+      }
+    });
 }
 
 }
 
 void DropRepeated(vtkPolyData* surface)
 {
-  std::vector<Rotated> triangles = ByFirstCorner(surface->GetPolys(), surface->GetNumberOfPoints());
-  std::vector<char> isKept(triangles.size(), 1);
+  const GroupedLists<Rotated> lists =
+    ByFirstCorner(surface->GetPolys(), surface->GetNumberOfPoints());
+  std::vector<char> isKept(lists.AllValues().size(), 1);
   bool areAllKept = true;
-  for (auto begin = triangles.begin(); begin != triangles.end();)
+  std::vector<Rotated> sorted; // of one corner
+  for (std::size_t corner = 0; corner < lists.NumberOfKeys(); ++corner)
   {
-    const auto end = std::find_if(begin, triangles.end(),
-      [&begin](const Rotated& other) { return other.corners[0] != begin->corners[0]; });
-    std::sort(begin, end);
-    for (auto it = begin + 1; it < end; ++it)
+    sorted.assign(lists[corner].begin(), lists[corner].end());
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
     {
-      if (it->corners == (it - 1)->corners)
+      if (sorted[i].corners == sorted[i - 1].corners)
       {
-        isKept[it->triangle] = 0;
+        isKept[sorted[i].triangle] = 0;
         areAllKept = false;
       }
     }
-    begin = end;
   }
   if (!areAllKept)
   {
