@@ -27,6 +27,7 @@ vtkDelaunayDisparityFilter::vtkDelaunayDisparityFilter()
   this->MinimumDisparity = options.disparity.minimumDisparity;
   this->Tolerance = options.disparity.tolerance;
   this->KeepEdges = options.disparity.keepEdges;
+  this->SpatialFlips = options.disparity.spatialFlips;
   this->PartnerViews = options.disparity.partners.most;
   this->ContinueBackground = options.continueBackground;
   this->BackgroundViews = options.background.partners.most;
@@ -44,6 +45,7 @@ freespace::DisparityMapOptions vtkDelaunayDisparityFilter::Options() const
   options.disparity.minimumDisparity = this->MinimumDisparity != 0;
   options.disparity.tolerance = this->Tolerance;
   options.disparity.keepEdges = this->KeepEdges != 0;
+  options.disparity.spatialFlips = this->SpatialFlips != 0;
   options.disparity.partners.most = this->PartnerViews;
   options.continueBackground = this->ContinueBackground != 0;
   options.background.partners.most = this->BackgroundViews;
@@ -92,6 +94,7 @@ void vtkDelaunayDisparityFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumDisparity: " << this->MinimumDisparity << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "KeepEdges: " << this->KeepEdges << "\n";
+  os << indent << "SpatialFlips: " << this->SpatialFlips << "\n";
   os << indent << "PartnerViews: " << this->PartnerViews << "\n";
   os << indent << "ContinueBackground: " << this->ContinueBackground << "\n";
   os << indent << "BackgroundViews: " << this->BackgroundViews << "\n";

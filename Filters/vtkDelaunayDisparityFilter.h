@@ -115,6 +115,17 @@ public:
 
   ///@{
   /**
+   * Whether edges of the triangulation are flipped where their triangles are badly shaped in space, so that
+   * triangles join what is close on the surface, and not what is close in the image over a depth jump. Lines
+   * of a view's block (edge chains) are not flipped. Off in the paper. Default on.
+   */
+  vtkSetMacro(SpatialFlips, vtkTypeBool);
+  vtkGetMacro(SpatialFlips, vtkTypeBool);
+  vtkBooleanMacro(SpatialFlips, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Number of other views whose features can be inserted into a view: half of them the next ones, the rest
    * spread over the others, so that the time grows with the number of views and not with its square. Features
    * that several views share are inserted in any case. 0, the paper, is no limit. Default 40.
@@ -192,6 +203,7 @@ protected:
   vtkTypeBool MinimumDisparity;
   double Tolerance;
   vtkTypeBool KeepEdges;
+  vtkTypeBool SpatialFlips;
   int PartnerViews;
   vtkTypeBool ContinueBackground;
   int BackgroundViews;

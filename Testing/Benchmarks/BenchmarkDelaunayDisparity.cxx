@@ -76,6 +76,7 @@ void Measure(benchmark::State& state, const std::string& scene, const std::vecto
 {
   DelaunayDisparityOptions options;
   options.tolerance = 1e-9;
+  options.spatialFlips = false;
   double mapTime = 0, delaunayTime = 0;
   std::size_t inserted = 0;
   for (auto _ : state)

@@ -17,6 +17,10 @@ void DelaunayDisparityOptions::Check() const
   {
     throw Error("The tolerance of the minimum disparity constraint must not be negative.");
   }
+  if (!(this->leastCotangents <= 0))
+  {
+    throw Error("The sum of cotangents below which an edge is flipped must not be positive.");
+  }
   this->partners.Check();
 }
 
@@ -102,11 +106,16 @@ DisparityMap TriangulateWith(const View& view, int index, const OtherFeatures& f
   }
   DisparitySurface<Triangulation> surface(view);
   surface.TriangulateFeatures(own, stop);
-  surface.KeepEdges(SightedEdges(view, sighted));
+  const std::vector<std::array<int, 2>> edges = SightedEdges(view, sighted);
+  surface.KeepEdges(edges);
   if (options.minimumDisparity)
   {
     surface.AddCandidates(FeaturesOfOthers(view.camera, index, features, stop), stop);
     surface.EnforceMinimumDisparity(options.tolerance, stop);
+  }
+  if (options.spatialFlips)
+  {
+    surface.FlipEdges(options.leastCotangents, edges, stop);
   }
   DisparityMap map;
   map.name = view.name;

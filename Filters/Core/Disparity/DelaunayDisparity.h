@@ -30,6 +30,18 @@ struct DelaunayDisparityOptions
   /// intersect others are skipped.
   bool keepEdges = false;
 
+  /// Beyond the paper: whether an edge of the triangulation is flipped where its two triangles are
+  /// badly shaped in space and those of the other diagonal are better. A triangulation that is
+  /// Delaunay in the image joins what is close there, over a depth jump, too; this one joins what is
+  /// close on the surface. Edges that the stereo found are not flipped. The minimum disparity
+  /// constraint holds all the same.
+  bool spatialFlips = true;
+
+  /// An edge is flipped where the cotangents of the two angles opposite it, in space, sum to less
+  /// than this; <= 0. With 0 the triangulation would be Delaunay's on the surface itself, where the
+  /// noise of the features decides more.
+  double leastCotangents = -0.25;
+
   /// The views whose points can be inserted into a view's surface.
   PartnerViewsOptions partners{ 40 };
 

@@ -308,6 +308,13 @@ void DisparitySurface<Triangulation>::EnforceMinimumDisparity(
   {
     this->Enqueue(face);
   }
+  this->InsertHighest(stop);
+}
+
+// Inserts the candidates in the queue, and those that become too high thereby.
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::InsertHighest(const CancellationFlag& stop)
+{
   while (!this->Queue.empty())
   {
     ThrowIfCancelled(stop);

@@ -14,8 +14,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <array>
+#include <cstdint>
 #include <queue>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace freespace
@@ -95,6 +97,11 @@ public:
   /// Inserts the candidate that is highest above the surface until none is above it by more than
   /// the tolerance, a fraction of the candidate's disparity.
   void EnforceMinimumDisparity(double tolerance, const CancellationFlag& stop);
+  /// Flips edges whose two triangles are badly shaped in space, see
+  /// DelaunayDisparityOptions::leastCotangents, but not the given pairs of features, and enforces the
+  /// constraint anew with the same tolerance.
+  void FlipEdges(double leastCotangents, const std::vector<std::array<int, 2>>& kept,
+    const CancellationFlag& stop);
   /// Writes the points and triangles into a map.
   void Fill(DisparityMap& map) const;
 
@@ -132,9 +139,13 @@ private:
   void PutInto(Face face, int candidate);
   void Enqueue(Face face);
   void Insert(int candidate, Face face);
+  void InsertHighest(const CancellationFlag& stop);
   void TakeCandidates(int inserted);
   void FindStar(Vertex center);
   void Redistribute(Vertex center);
+  bool WantsFlip(Face face, int index, double leastCotangents) const;
+  void Flip(Face face, int index);
+  int FlipOnce(double leastCotangents, const CancellationFlag& stop);
 
   std::string Name;
   std::vector<SightedPoint> Points;  // of the triangulation, indexed by VertexInfo::point
@@ -144,8 +155,9 @@ private:
   Triangulation Delaunay;
   std::priority_queue<Highest> Queue;
   double Tolerance = 0;
-  std::vector<Face> Star;    // around the point that is being inserted
-  std::vector<int> Homeless; // the candidates of the triangles that it replaced
+  std::vector<Face> Star;                 // around the point that is being inserted
+  std::vector<int> Homeless;              // the candidates of the triangles that it replaced
+  std::unordered_set<std::uint64_t> Kept; // edges that are not flipped, as pairs of points
 };
 
 extern template class DisparitySurface<PlainTriangulation>;

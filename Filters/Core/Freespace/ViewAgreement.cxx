@@ -87,7 +87,10 @@ std::vector<AgreementErrors> ErrorsOfAgreement(
 
 int ViewsThatMustAgree(const std::vector<AgreementErrors>& errors)
 {
-  return errors.size() > 1 && errors[1].Sum() < errors[0].Sum() ? 2 : 1;
+  constexpr double hardlyAny = 0.001;
+  return errors.size() > 1 && (errors[1].Sum() < errors[0].Sum() || errors[1].blocked <= hardlyAny)
+    ? 2
+    : 1;
 }
 
 }

@@ -177,6 +177,7 @@ void ExpectDefinition(const std::vector<View>& views, std::size_t index, double 
 {
   DelaunayDisparityOptions options;
   options.tolerance = tolerance;
+  options.spatialFlips = false;
   const DisparityMap map = TriangulateView(views, index, options);
   const BruteForce expected(views, index, tolerance);
   EXPECT_EQ(map.points.size(), expected.points.size());

@@ -92,6 +92,9 @@ TEST(ViewAgreement, OfNothingIsOne)
   EXPECT_EQ(ViewsThatMustAgree({}), 1);
   EXPECT_EQ(ViewsThatMustAgree({ { 0.1, 0 }, { 0.05, 0.04 } }), 2);
   EXPECT_EQ(ViewsThatMustAgree({ { 0.1, 0 }, { 0.05, 0.06 } }), 1);
+  EXPECT_EQ(ViewsThatMustAgree({ { 0.001, 0 }, { 0.0008, 0.0005 } }), 2)
+    << "it costs hardly any free space";
+  EXPECT_EQ(ViewsThatMustAgree({ { 0.001, 0 }, { 0.0008, 0.002 } }), 1);
   auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = FreespaceUnionOptions::AutomaticViews;
   EXPECT_EQ(FreespaceUnion(std::vector<DisparityMap>(), options).MinimumViews(), 1);

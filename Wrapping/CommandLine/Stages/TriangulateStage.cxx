@@ -90,6 +90,12 @@ void TriangulateStage::AddOptions(CLI::App& command)
       "--keep-edges", this->KeepEdges, "Triangles do not cross the edges that the stereo found")
     ->group("Disparity maps");
   command
+    .add_option("--spatial-flips", this->SpatialFlips,
+      "Flip edges of triangles that are badly shaped in space: on, or off as in the paper")
+    ->check(CLI::IsMember({ "on", "off" }))
+    ->capture_default_str()
+    ->group("Disparity maps");
+  command
     .add_option("--background", this->Background,
       "Continue the background behind occluding edges: on, off, or auto, which is off for the "
       "isolated points of a structure-from-motion model")
@@ -120,6 +126,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
   maps->SetLongestEdge(this->LongestEdge);
   maps->SetGreatestDepthRatio(this->GreatestDepthRatio);
   maps->SetKeepEdges(this->KeepEdges);
+  maps->SetSpatialFlips(this->SpatialFlips == "on");
   maps->SetBackgroundViews(this->BackgroundViews);
   maps->SetContinueBackground(
     this->Background == "on" || (this->Background == "auto" && !AreIsolated(features)));

@@ -39,6 +39,7 @@ private:
   double LongestEdge = TrimOptions().longestEdge;
   double GreatestDepthRatio = TrimOptions().greatestDepth;
   bool KeepEdges = DelaunayDisparityOptions().keepEdges;
+  std::string SpatialFlips = DelaunayDisparityOptions().spatialFlips ? "on" : "off";
   std::string Background = "auto";
 };
 

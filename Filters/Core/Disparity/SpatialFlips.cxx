@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of DisparitySurface that flips edges: a data-dependent triangulation (N. Dyn, D. Levin, S. Rippa,
+// "Data dependent triangulations for piecewise linear interpolation", IMA Journal of Numerical Analysis, 1990), whose
+// criterion is Delaunay's on the surface itself.
+#include "Disparity/DisparitySurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace freespace
+{
+
+namespace
+{
+
+// Flips and the constraint follow each other at most so often.
+constexpr int MaximumRounds = 4;
+constexpr int MaximumPasses = 8;
+
+// The cotangent of the angle at `apex` in the triangle with a and b.
+double Cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+  const double sine = (a - apex).cross(b - apex).norm();
+  const double cosine = (a - apex).dot(b - apex);
+  return sine > 0 ? cosine / sine
+                  : std::copysign(std::numeric_limits<double>::infinity(), cosine);
+}
+
+// An edge as an unordered pair of points.
+std::uint64_t EdgeKey(int a, int b)
+{
+  const auto [low, high] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
+}
+
+}
+
+// Whether the edge opposite a vertex of a triangle is to be flipped: the quadrangle is strictly convex in the image,
+// and the other diagonal is the better one in space.
+template <typename Triangulation>
+bool DisparitySurface<Triangulation>::WantsFlip(
+  Face face, int index, double leastCotangents) const
+{
+  const Face neighbor = face->neighbor(index);
+  if (this->Delaunay.is_infinite(neighbor))
+  {
+    return false;
+  }
+  const Vertex apex = face->vertex(index);
+  const Vertex a = face->vertex(Triangulation::ccw(index));
+  const Vertex b = face->vertex(Triangulation::cw(index));
+  const Vertex other = neighbor->vertex(neighbor->index(face));
+  const auto point = [this](Vertex vertex) -> const Eigen::Vector3d&
+  { return this->Points[static_cast<std::size_t>(vertex->info().point)].point; };
+  const double sum = Cotangent(point(apex), point(a), point(b)) +
+    Cotangent(point(other), point(a), point(b));
+  if (!(sum < leastCotangents) || this->Kept.count(EdgeKey(a->info().point, b->info().point)) > 0)
+  {
+    return false;
+  }
+  const double flipped = Cotangent(point(a), point(apex), point(other)) +
+    Cotangent(point(b), point(apex), point(other));
+  return flipped > sum &&
+    CGAL::orientation(apex->point(), a->point(), other->point()) == CGAL::LEFT_TURN &&
+    CGAL::orientation(other->point(), b->point(), apex->point()) == CGAL::LEFT_TURN;
+}
+
+// Flips the edge opposite a vertex of a triangle and distributes the candidates of the two triangles anew.
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::Flip(Face face, int index)
+{
+  const Vertex apex = face->vertex(index);
+  this->Star = { face, face->neighbor(index) };
+  this->TakeCandidates(-1);
+  if constexpr (std::is_same_v<Triangulation, ConstrainedTriangulation>)
+  {
+    this->Delaunay.flip(face, index);
+  }
+  else
+  {
+    this->Delaunay.tds().flip(face, index);
+  }
+  this->Redistribute(apex);
+}
+
+// One pass over all edges. Returns how many it flipped.
+template <typename Triangulation>
+int DisparitySurface<Triangulation>::FlipOnce(double leastCotangents, const CancellationFlag& stop)
+{
+  int flips = 0;
+  for (const Face face : this->Delaunay.finite_face_handles())
+  {
+    ThrowIfCancelled(stop);
+    for (int i = 0; i < 3; ++i)
+    {
+      if (this->WantsFlip(face, i, leastCotangents))
+      {
+        this->Flip(face, i);
+        ++flips;
+      }
+    }
+  }
+  return flips;
+}
+
+template <typename Triangulation>
+void DisparitySurface<Triangulation>::FlipEdges(double leastCotangents,
+  const std::vector<std::array<int, 2>>& kept, const CancellationFlag& stop)
+{
+  for (const auto& [a, b] : kept)
+  {
+    this->Kept.insert(
+      EdgeKey(this->OfFeature[a]->info().point, this->OfFeature[b]->info().point));
+  }
+  for (int round = 0; round < MaximumRounds; ++round)
+  {
+    int flips = 0;
+    for (int pass = 0; pass < MaximumPasses; ++pass)
+    {
+      const int more = this->FlipOnce(leastCotangents, stop);
+      flips += more;
+      if (more == 0)
+      {
+        break;
+      }
+    }
+    if (flips == 0)
+    {
+      break;
+    }
+    this->InsertHighest(stop);
+  }
+}
+
+template bool DisparitySurface<PlainTriangulation>::WantsFlip(Face, int, double) const;
+template void DisparitySurface<PlainTriangulation>::Flip(Face, int);
+template int DisparitySurface<PlainTriangulation>::FlipOnce(double, const CancellationFlag&);
+template void DisparitySurface<PlainTriangulation>::FlipEdges(
+  double, const std::vector<std::array<int, 2>>&, const CancellationFlag&);
+template bool DisparitySurface<ConstrainedTriangulation>::WantsFlip(Face, int, double) const;
+template void DisparitySurface<ConstrainedTriangulation>::Flip(Face, int);
+template int DisparitySurface<ConstrainedTriangulation>::FlipOnce(double, const CancellationFlag&);
+template void DisparitySurface<ConstrainedTriangulation>::FlipEdges(
+  double, const std::vector<std::array<int, 2>>&, const CancellationFlag&);
+
+}
