@@ -24,8 +24,7 @@ double Cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& a, const Ei
 {
   const double sine = (a - apex).cross(b - apex).norm();
   const double cosine = (a - apex).dot(b - apex);
-  return sine > 0 ? cosine / sine
-                  : std::copysign(std::numeric_limits<double>::infinity(), cosine);
+  return sine > 0 ? cosine / sine : std::copysign(std::numeric_limits<double>::infinity(), cosine);
 }
 
 // An edge as an unordered pair of points.
@@ -40,8 +39,7 @@ std::uint64_t EdgeKey(int a, int b)
 // Whether the edge opposite a vertex of a triangle is to be flipped: the quadrangle is strictly convex in the image,
 // and the other diagonal is the better one in space.
 template <typename Triangulation>
-bool DisparitySurface<Triangulation>::WantsFlip(
-  Face face, int index, double leastCotangents) const
+bool DisparitySurface<Triangulation>::WantsFlip(Face face, int index, double leastCotangents) const
 {
   const Face neighbor = face->neighbor(index);
   if (this->Delaunay.is_infinite(neighbor))
@@ -54,14 +52,14 @@ bool DisparitySurface<Triangulation>::WantsFlip(
   const Vertex other = neighbor->vertex(neighbor->index(face));
   const auto point = [this](Vertex vertex) -> const Eigen::Vector3d&
   { return this->Points[static_cast<std::size_t>(vertex->info().point)].point; };
-  const double sum = Cotangent(point(apex), point(a), point(b)) +
-    Cotangent(point(other), point(a), point(b));
+  const double sum =
+    Cotangent(point(apex), point(a), point(b)) + Cotangent(point(other), point(a), point(b));
   if (!(sum < leastCotangents) || this->Kept.count(EdgeKey(a->info().point, b->info().point)) > 0)
   {
     return false;
   }
-  const double flipped = Cotangent(point(a), point(apex), point(other)) +
-    Cotangent(point(b), point(apex), point(other));
+  const double flipped =
+    Cotangent(point(a), point(apex), point(other)) + Cotangent(point(b), point(apex), point(other));
   return flipped > sum &&
     CGAL::orientation(apex->point(), a->point(), other->point()) == CGAL::LEFT_TURN &&
     CGAL::orientation(other->point(), b->point(), apex->point()) == CGAL::LEFT_TURN;
@@ -106,13 +104,12 @@ int DisparitySurface<Triangulation>::FlipOnce(double leastCotangents, const Canc
 }
 
 template <typename Triangulation>
-void DisparitySurface<Triangulation>::FlipEdges(double leastCotangents,
-  const std::vector<std::array<int, 2>>& kept, const CancellationFlag& stop)
+void DisparitySurface<Triangulation>::FlipEdges(
+  double leastCotangents, const std::vector<std::array<int, 2>>& kept, const CancellationFlag& stop)
 {
   for (const auto& [a, b] : kept)
   {
-    this->Kept.insert(
-      EdgeKey(this->OfFeature[a]->info().point, this->OfFeature[b]->info().point));
+    this->Kept.insert(EdgeKey(this->OfFeature[a]->info().point, this->OfFeature[b]->info().point));
   }
   for (int round = 0; round < MaximumRounds; ++round)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Agreement/WrongImages.h"
 
+#include "Agreement/ChanceMatches.h"
 #include "Agreement/ImageAgreement.h"
 #include "Agreement/RemainingImages.h"
 #include "Common/Error.h"
@@ -78,8 +79,7 @@ public:
     ParallelForWithProgress(unknown.size(), parallelFor, progress,
       [&](std::size_t i, const CancellationFlag& stop)
       {
-        const ClusterMatches matches = MatchCluster(this->Edges, this->Images, *unknown[i],
-          this->Matching, this->Options.matching.tokensPerImage, stop);
+        const ClusterMatches matches = this->Match(this->Images, *unknown[i], stop);
         found[i] = AgreementOf(matches);
         if (this->Tracks)
         {
@@ -102,7 +102,22 @@ public:
     return all;
   }
 
+  // Whether the reference of a cluster that was measured has more than chance gives it.
+  bool ExceedsChance(const Cluster& cluster, const CancellationFlag& stop)
+  {
+    return freespace::ExceedsChance(this->Images, cluster, this->Known.at(cluster.triplets),
+      [&](const std::vector<CalibratedImage>& images, const Cluster& given)
+      { return AgreementOf(this->Match(images, given, stop)); });
+  }
+
 private:
+  ClusterMatches Match(const std::vector<CalibratedImage>& images, const Cluster& cluster,
+    const CancellationFlag& stop) const
+  {
+    return MatchCluster(
+      this->Edges, images, cluster, this->Matching, this->Options.matching.tokensPerImage, stop);
+  }
+
   EdgeStore& Edges;
   const std::vector<CalibratedImage>& Images;
   MatcherOptions Matching;
@@ -110,6 +125,38 @@ private:
   ClusterTracks* Tracks;
   std::map<decltype(Cluster::triplets), ImageAgreement> Known;
 };
+
+// Removes the images that form a group of their own, apart from the others: few of their edges are confirmed, because
+// their neighbours are far or the light is poor, but more than by chance, and they confirm each other.
+void KeepCoherentGroups(std::vector<std::string>& wrong, const std::vector<Cluster>& clusters,
+  const std::vector<CalibratedImage>& images, AgreementMeter& meter, const ParallelFor& parallelFor,
+  const Progress& progress)
+{
+  const std::vector<ImageAgreement> all =
+    meter.Measure(clusters, parallelFor, progress.Part(0, 0.5));
+  std::vector<char> exceeds(all.size(), 0);
+  const auto isWrong = [&](int image)
+  {
+    const std::string& file = images[static_cast<std::size_t>(image)].file;
+    return std::find(wrong.begin(), wrong.end(), file) != wrong.end();
+  };
+  ParallelForWithProgress(all.size(), parallelFor, progress.Part(0.5, 1),
+    [&](std::size_t i, const CancellationFlag& stop)
+    { exceeds[i] = isWrong(all[i].image) && meter.ExceedsChance(clusters[i], stop); });
+  std::vector<ImageAgreement> candidates;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (exceeds[i])
+    {
+      candidates.push_back(all[i]);
+    }
+  }
+  for (const int image : ConfirmedByEachOther(candidates))
+  {
+    const std::string& file = images[static_cast<std::size_t>(image)].file;
+    wrong.erase(std::remove(wrong.begin(), wrong.end(), file), wrong.end());
+  }
+}
 
 }
 
@@ -157,7 +204,7 @@ std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& 
     if (without.erase(images[i].file) > 0)
     {
       const Agreement found = judge(
-        without, progress.Part(0.5 + 0.5 * i / images.size(), 0.5 + 0.5 * (i + 1) / images.size()));
+        without, progress.Part(0.5 + 0.4 * i / images.size(), 0.5 + 0.4 * (i + 1) / images.size()));
       const std::vector<int>& confirmed = found.confirmed;
       if (std::binary_search(confirmed.begin(), confirmed.end(), static_cast<int>(i)))
       {
@@ -168,6 +215,11 @@ std::vector<std::string> FindWrongImages(const Scene& scene, const SparseModel& 
         wrong.push_back(images[i].file);
       }
     }
+  }
+  if (wrong.size() > 2)
+  {
+    KeepCoherentGroups(wrong, ClustersForRefinement(scene, model, options.matching.neighbors),
+      images, meter, parallelFor, progress.Part(0.9, 1));
   }
   progress(1);
   return wrong;

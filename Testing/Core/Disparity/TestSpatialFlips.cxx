@@ -44,8 +44,8 @@ std::vector<View> SteepRhombus()
 
 double TwiceArea(const DisparityMap& map, const std::array<int, 3>& t)
 {
-  return Cross(map.imagePoints[t[1]] - map.imagePoints[t[0]],
-    map.imagePoints[t[2]] - map.imagePoints[t[0]]);
+  return Cross(
+    map.imagePoints[t[1]] - map.imagePoints[t[0]], map.imagePoints[t[2]] - map.imagePoints[t[0]]);
 }
 
 double Cotangent(const Vector3d& apex, const Vector3d& a, const Vector3d& b)
@@ -69,8 +69,7 @@ std::map<std::pair<int, int>, std::vector<int>> ApexesOfEdges(const DisparityMap
 
 bool IsStrictlyConvex(const DisparityMap& map, int a, int c, int b, int d)
 {
-  const auto side = [&map](int i, int j, int k)
-  {
+  const auto side = [&map](int i, int j, int k) {
     return Cross(map.imagePoints[j] - map.imagePoints[i], map.imagePoints[k] - map.imagePoints[i]);
   };
   constexpr double little = 1e-6;
