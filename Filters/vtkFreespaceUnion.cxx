@@ -439,7 +439,7 @@ vtkIdType vtkFreespaceUnion::GetNumberOfFeaturesBeyond()
 int vtkFreespaceUnion::FindMinimumViews()
 {
   const auto core = this->GetCore();
-  return core ? core->MinimumViews() : 0;
+  return core ? core->Rule().enough : 0;
 }
 
 int vtkFreespaceUnion::GetSuggestedCells()

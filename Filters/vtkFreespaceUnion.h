@@ -40,7 +40,7 @@
  * @sa vtkDelaunayDisparityFilter vtkBisectionContourFilter vtkFreespaceSurfaceFilter vtkOccupancyMapWriter
  *
  * @warning Free space is claimed by interpolation between features. One wrong feature far behind the
- * surface can carve a hole through matter; MinimumViews 2 requires that two views agree.
+ * surface can carve a hole through matter where no other view contradicts it, or MinimumViews is 1.
  */
 #ifndef vtkFreespaceUnion_h
 #define vtkFreespaceUnion_h
@@ -91,8 +91,9 @@ public:
   ///@{
   /**
    * Number of views in whose free space a point must be to be free; 1 in the paper. A number above that of
-   * the views is an error. Automatic, or -1, is 1 or 2, by how often views contradict each other at
-   * features; FindMinimumViews returns the number in use, after an Update. Default automatic.
+   * the views is an error. Automatic, or -1, is three, or fewer where no more views contradict them: those
+   * that have the point closely behind their own surface, by the distance of their features there. FindMinimumViews
+   * returns the number that decides in any case, after an Update. Default automatic.
    */
   vtkSetMacro(MinimumViews, int);
   vtkGetMacro(MinimumViews, int);

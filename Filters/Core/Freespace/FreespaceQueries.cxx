@@ -2,6 +2,7 @@
 #include "Freespace/FreespaceQueries.h"
 
 #include "Common/Octant.h"
+#include "Freespace/Votes/VoteSweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +12,12 @@ namespace freespace
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-using Intervals = ViewFreespace::Intervals;
 
 namespace
 {
 
 /// The greatest depth of the recursion over octants.
 constexpr int DeepestHalving = 10;
-
-/// A place along a segment where a free interval of a view begins (1) or ends (-1).
-struct Change
-{
-  double at;
-  int by;
-};
 
 // The part of a segment inside the closed hull; empty (begin > end) where the segment misses the
 // hull.
@@ -129,50 +122,37 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
   {
     return HUGE_VAL;
   }
-  std::vector<Change> changes;
-  Intervals intervals;
   // Inside the hull only the views that are undecided around the segment begin or end to be free on
   // it.
   AlignedBox3d way(first + enters * (last - first));
   way.extend(first + leaves * (last - first));
   const FieldScope scope = phi.ScopeAround(way);
-  if (scope.freeViews >= phi.MinimumViews())
+  const VoteRule& rule = phi.Rule();
+  VoteSweep sweep({ scope.freeViews, scope.againstViews });
+  for (const int view : scope.views)
   {
-    return HUGE_VAL;
+    sweep.Add(view, phi.ViewAt(view), first, last, phi.MarginOf(view));
   }
-  for (int view : scope.views)
-  {
-    phi.ViewAt(view).FreeIntervals(first, last, intervals);
-    for (const auto& [begin, end] : intervals)
-    {
-      changes.push_back({ begin, 1 });
-      changes.push_back({ end, -1 });
-    }
-  }
-  // Where one interval ends and another begins, the segment is free: beginnings are sorted first.
-  std::sort(changes.begin(), changes.end(),
-    [](const Change& a, const Change& b) { return a.at < b.at || (a.at == b.at && a.by > b.by); });
   double blocked = enters;
-  int claims = scope.freeViews;
-  for (const Change& change : changes)
+  bool wasFree = rule.IsFree(scope.freeViews, scope.againstViews);
+  while (sweep.Next())
   {
-    const bool wasFree = claims >= phi.MinimumViews();
-    claims += change.by;
-    const bool isFree = claims >= phi.MinimumViews();
-    if (isFree && !wasFree && change.at > blocked)
+    const bool isFree = rule.IsFree(sweep.Votes().free, sweep.Votes().against);
+    if (isFree && !wasFree && sweep.Place() > blocked)
     {
       return blocked;
     }
     if (wasFree && !isFree)
     {
-      blocked = std::max(blocked, change.at);
+      blocked = std::max(blocked, sweep.Place());
     }
     if (blocked > leaves)
     {
       return HUGE_VAL;
     }
+    wasFree = isFree;
   }
-  return blocked < 1.0 || !phi.IsFree(last) ? blocked : HUGE_VAL;
+  return !wasFree && (blocked < 1.0 || !phi.IsFree(last)) ? blocked : HUGE_VAL;
 }
 
 bool IsBoxFree(const FreespaceUnion& phi, const AlignedBox3d& box)

@@ -4,7 +4,6 @@
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Freespace/CameraSurroundings.h"
-#include "Freespace/ViewAgreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +44,17 @@ void CheckTriangles(const DisparityMap& map)
   }
 }
 
+VoteRule RuleOf(const FreespaceUnionOptions& options, std::size_t views)
+{
+  constexpr int enough = 3;
+  VoteRule rule;
+  rule.isMajority = options.minimumViews == FreespaceUnionOptions::AutomaticViews;
+  rule.enough = rule.isMajority
+    ? std::clamp(static_cast<int>(std::min<std::size_t>(views, enough)), 1, enough)
+    : options.minimumViews;
+  return rule;
+}
+
 }
 
 void FreespaceUnionOptions::Check() const
@@ -53,6 +63,10 @@ void FreespaceUnionOptions::Check() const
   {
     throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
       ", it must be at least 1.");
+  }
+  if (!(this->contradiction > 0 && std::isfinite(this->contradiction)))
+  {
+    throw Error("The depth within which a view contradicts others must be positive.");
   }
   this->region.Check();
   this->resolution.Check();
@@ -90,6 +104,7 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
 {
   options.Check();
   this->CheckCount();
+  this->Votes = RuleOf(options, count);
   std::vector<ViewFeatures> features(count);
   std::mutex asking;
   ParallelForWithProgress(count, parallelFor, progress.Part(0.0, 0.8),
@@ -108,21 +123,24 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
   const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
   this->Region = MakeRegionHull(features, options.region, options.resolution,
     isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
-    progress.Part(0.8, 0.9));
-  this->ChooseMinimumViews(features, parallelFor, progress.Part(0.9, 1.0));
+    progress.Part(0.8, 1.0));
   this->AddSurroundings(features);
+  this->FindMargins(features);
+  this->AllViews.resize(this->Views.size());
+  std::iota(this->AllViews.begin(), this->AllViews.end(), 0);
   progress(1.0);
 }
 
-void FreespaceUnion::ChooseMinimumViews(const std::vector<ViewFeatures>& features,
-  const ParallelFor& parallelFor, const Progress& progress)
+// The maps' views contradict where more than some views must agree, the surroundings of cameras nothing.
+void FreespaceUnion::FindMargins(const std::vector<ViewFeatures>& features)
 {
-  constexpr double spacings = 2.4; // some cells of the lattice
-  if (this->Options.minimumViews == FreespaceUnionOptions::AutomaticViews)
+  this->Margins.assign(this->Views.size(), 0);
+  for (std::size_t i = 0; this->Votes.isMajority && i < features.size(); ++i)
   {
-    const int most = std::min(2, std::max(1, static_cast<int>(this->NumberOfMaps)));
-    this->Options.minimumViews = ViewsThatMustAgree(ErrorsOfAgreement(
-      this->Views, features, this->Region.region.box, spacings, most, parallelFor, progress));
+    const Eigen::Matrix3d& k = features[i].camera.K;
+    const double focal = std::sqrt(std::abs(k(0, 0) * k(1, 1)));
+    const double margin = this->Options.contradiction * std::max(features[i].spacing, 1.0) / focal;
+    this->Margins[i] = std::isfinite(margin) ? margin : 0;
   }
 }
 
@@ -132,7 +150,7 @@ void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
   for (const DisparityMap& map :
     CameraSurroundings(features, this->Region, this->Options.surroundings))
   {
-    for (int i = 0; i < this->Options.minimumViews; ++i)
+    for (int i = 0; i < this->Votes.enough; ++i)
     {
       this->Views.push_back(std::make_unique<ViewFreespace>(map));
       this->SurroundedView.push_back(map.sourceView.front());
@@ -157,57 +175,10 @@ void FreespaceUnion::CheckCount() const
   }
 }
 
-FreespaceUnion::Winner FreespaceUnion::Evaluate(const Vector3d& point) const
-{
-  const int plane = this->Hull().NearestPlane(point);
-  if (plane < 0)
-  {
-    return { HUGE_VAL, Vector3d::Zero() };
-  }
-  const Winner hull = { this->Hull().Distance(plane, point), this->Hull().Normal(plane) };
-  std::vector<Winner> claims;
-  const auto ask = [&](const ViewFreespace& view)
-  {
-    const ViewFreespace::Sample sample = view.At(point);
-    if (sample.triangle >= 0)
-    {
-      claims.push_back({ sample.value, sample.gradient });
-    }
-  };
-  if (this->ClaimIndex().Contains(point))
-  {
-    const ViewOctree::Part part = this->ClaimIndex().At(point);
-    std::for_each(part.begin, part.end, [&](int view) { ask(*this->Views[view]); });
-  }
-  else
-  {
-    std::for_each(this->Views.begin(), this->Views.end(), [&](const auto& view) { ask(*view); });
-  }
-  const std::size_t k = static_cast<std::size_t>(this->Options.minimumViews);
-  if (claims.size() < k)
-  {
-    return hull;
-  }
-  std::nth_element(claims.begin(), claims.begin() + (k - 1), claims.end(),
-    [](const Winner& a, const Winner& b) { return a.value > b.value; });
-  return claims[k - 1].value > hull.value ? claims[k - 1] : hull;
-}
-
-double FreespaceUnion::Value(const Vector3d& point) const
-{
-  return this->Evaluate(point).value;
-}
-
-Vector3d FreespaceUnion::Gradient(const Vector3d& point) const
-{
-  return this->Evaluate(point).gradient;
-}
-
 FieldScope FreespaceUnion::Root() const
 {
   FieldScope scope;
-  scope.views.resize(this->Views.size());
-  std::iota(scope.views.begin(), scope.views.end(), 0);
+  scope.views = this->AllViews;
   scope.planes.resize(this->Hull().NumberOfPlanes());
   std::iota(scope.planes.begin(), scope.planes.end(), 0);
   return scope;
@@ -221,10 +192,10 @@ const ViewOctree& FreespaceUnion::FreeIndex(const Progress& progress) const
     [&]
     {
       this->Free = std::make_unique<ViewOctree>(
-        this->Views, this->Hull().Bounds(),
-        [](const ViewFreespace& view, const Eigen::AlignedBox3d& box)
-        { return view.Classify(box); },
-        this->Options.minimumViews, deepestLevel, progress);
+        this->Views.size(), this->Hull().Bounds(),
+        [this](std::size_t view, const Eigen::AlignedBox3d& box)
+        { return VoteOn(*this->Views[view], box, this->MarginOf(static_cast<int>(view))); },
+        this->Votes.enough, deepestLevel, progress);
     });
   return *this->Free;
 }
@@ -255,10 +226,10 @@ const ViewOctree& FreespaceUnion::ClaimIndex() const
     [this]
     {
       this->Claims = std::make_unique<ViewOctree>(
-        this->Views, this->Hull().Bounds(),
-        [](const ViewFreespace& view, const Eigen::AlignedBox3d& box)
-        { return view.MayClaim(box) ? BoxContent::Mixed : BoxContent::Matter; },
-        this->Options.minimumViews, deepestLevel);
+        this->Views.size(), this->Hull().Bounds(),
+        [this](std::size_t view, const Eigen::AlignedBox3d& box)
+        { return this->Views[view]->MayClaim(box) ? Vote::Undecided : Vote::None; },
+        this->Votes.enough, deepestLevel);
     });
   return *this->Claims;
 }
@@ -270,26 +241,38 @@ FieldScope FreespaceUnion::ScopeAround(const Eigen::AlignedBox3d& box) const
   {
     const ViewOctree::Part part = this->FreeIndex().Around(box);
     scope.views.assign(part.begin, part.end);
-    scope.freeViews = part.freeViews;
+    scope.freeViews = part.votes.free;
+    scope.againstViews = part.votes.against;
   }
   return scope;
 }
 
+// Asks views, some of which have voted, until the decision is certain.
+bool FreespaceUnion::IsVotedFree(
+  const Vector3d& point, VoteCount votes, const int* begin, const int* end) const
+{
+  for (const int* view = begin; view != end; ++view)
+  {
+    const BoxContent decision =
+      this->Votes.Decide(votes.free, votes.against, static_cast<int>(end - view));
+    if (decision != BoxContent::Mixed)
+    {
+      return decision == BoxContent::Free;
+    }
+    votes.Add(VoteOn(*this->Views[*view], point, this->MarginOf(*view)));
+  }
+  return this->Votes.IsFree(votes.free, votes.against);
+}
+
 bool FreespaceUnion::IsSeenFree(const Vector3d& point) const
 {
-  const int enough = this->Options.minimumViews;
-  int free = 0;
-  const auto tells = [&](const ViewFreespace& view)
-  { return view.IsFree(point) && ++free >= enough; };
   if (this->Views.size() <= FewViews || !this->Hull().Bounds().contains(point))
   {
-    return std::any_of(
-      this->Views.begin(), this->Views.end(), [&](const auto& view) { return tells(*view); });
+    return this->IsVotedFree(
+      point, {}, this->AllViews.data(), this->AllViews.data() + this->AllViews.size());
   }
   const ViewOctree::Part part = this->FreeIndex().At(point);
-  free = part.freeViews;
-  return free >= enough ||
-    std::any_of(part.begin, part.end, [&](int view) { return tells(*this->Views[view]); });
+  return this->IsVotedFree(point, part.votes, part.begin, part.end);
 }
 
 bool FreespaceUnion::IsFree(const Vector3d& point) const
@@ -304,81 +287,69 @@ bool FreespaceUnion::IsFree(const Vector3d& point) const
 
 bool FreespaceUnion::IsFree(const Vector3d& point, const FieldScope& scope) const
 {
-  if (this->Hull().IsEmpty() || scope.freeViews >= this->Options.minimumViews)
+  const std::vector<int>& views = scope.views;
+  return this->Hull().IsEmpty() ||
+    this->IsVotedFree(
+      point, { scope.freeViews, scope.againstViews }, views.data(), views.data() + views.size()) ||
+    std::any_of(scope.planes.begin(), scope.planes.end(),
+      [&](int plane) { return this->Hull().Distance(plane, point) > 0; });
+}
+
+// Lets views vote on all of a box, and keeps those that are undecided.
+template <typename Question>
+BoxContent FreespaceUnion::VoteOnBox(
+  const std::vector<int>& views, FieldScope& scope, const Question& question) const
+{
+  std::vector<int> open;
+  VoteCount votes{ scope.freeViews, scope.againstViews };
+  for (const int view : views)
   {
-    return true;
-  }
-  int free = scope.freeViews;
-  int left = static_cast<int>(scope.views.size());
-  for (int view : scope.views)
-  {
-    if (free + left < this->Options.minimumViews)
+    const Vote vote = question(view);
+    if (vote == Vote::Undecided)
     {
-      break;
+      open.push_back(view);
     }
-    --left;
-    if (this->Views[view]->IsFree(point) && ++free >= this->Options.minimumViews)
+    votes.Add(vote);
+    if (votes.free >= this->Votes.enough)
     {
-      return true;
+      return BoxContent::Free;
     }
   }
-  return std::any_of(scope.planes.begin(), scope.planes.end(),
-    [&](int plane) { return this->Hull().Distance(plane, point) > 0; });
+  scope.views = std::move(open);
+  scope.freeViews = votes.free;
+  scope.againstViews = votes.against;
+  const BoxContent content =
+    this->Votes.Decide(votes.free, votes.against, static_cast<int>(scope.views.size()));
+  // The planes of the hull can still make a point free.
+  return content == BoxContent::Matter && !scope.planes.empty() ? BoxContent::Mixed : content;
 }
 
 BoxContent FreespaceUnion::Classify(
   const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const
 {
-  if (this->Hull().IsEmpty() || parent.freeViews >= this->Options.minimumViews)
+  if (this->Hull().IsEmpty() ||
+    this->Votes.Decide(parent.freeViews, parent.againstViews,
+      static_cast<int>(parent.views.size())) == BoxContent::Free)
   {
     return BoxContent::Free;
   }
   const BoxContent hull = this->Hull().Classify(box, parent.planes, scope.planes);
   scope.views.clear();
   scope.freeViews = parent.freeViews;
+  scope.againstViews = parent.againstViews;
   if (hull == BoxContent::Free)
   {
     return BoxContent::Free;
   }
-  for (int view : parent.views)
-  {
-    const BoxContent content = this->Views[view]->Classify(box);
-    if (content == BoxContent::Mixed)
-    {
-      scope.views.push_back(view);
-    }
-    else if (content == BoxContent::Free && ++scope.freeViews >= this->Options.minimumViews)
-    {
-      return BoxContent::Free;
-    }
-  }
-  return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
-}
-
-// Whether the undecided views and planes of a scope can still make a point free.
-bool FreespaceUnion::CanOpen(const FieldScope& scope) const
-{
-  return !scope.planes.empty() ||
-    scope.freeViews + static_cast<int>(scope.views.size()) >= this->Options.minimumViews;
+  return this->VoteOnBox(parent.views, scope,
+    [&](int view) { return VoteOn(*this->Views[view], box, this->MarginOf(view)); });
 }
 
 BoxContent FreespaceUnion::ClassifyFinely(const Eigen::AlignedBox3d& box, FieldScope& scope) const
 {
-  std::vector<int> open;
-  for (int view : scope.views)
-  {
-    const BoxContent content = this->Views[view]->ClassifyFinely(box);
-    if (content == BoxContent::Mixed)
-    {
-      open.push_back(view);
-    }
-    else if (content == BoxContent::Free && ++scope.freeViews >= this->Options.minimumViews)
-    {
-      return BoxContent::Free;
-    }
-  }
-  scope.views = std::move(open);
-  return this->CanOpen(scope) ? BoxContent::Mixed : BoxContent::Matter;
+  const std::vector<int> views = std::move(scope.views);
+  return this->VoteOnBox(views, scope,
+    [&](int view) { return VoteFinely(*this->Views[view], box, this->MarginOf(view)); });
 }
 
 }

@@ -7,6 +7,7 @@
 #include "Contour/Lattice/ContourField.h"
 #include "Freespace/RegionHull.h"
 #include "Freespace/ViewOctree.h"
+#include "Freespace/Votes/ViewVotes.h"
 #include "ViewFreespace/ViewFreespace.h"
 
 #include <functional>
@@ -23,9 +24,15 @@ struct FreespaceUnionOptions
   static constexpr int AutomaticViews = -1;
 
   /// Number of views in whose free space a point must lie to be free; >= 1, at most the number of
-  /// views; 1 in the paper. AutomaticViews: 1 or 2, by how often views contradict each other at
-  /// features.
+  /// views; 1 in the paper. AutomaticViews: three, or fewer where no more views contradict them: those
+  /// that have the point closely behind their own surface. So one view's error does not carve what others saw, and a
+  /// place that one view alone sees is free.
   int minimumViews = AutomaticViews;
+
+  /// How far behind its surface a view contradicts others, with AutomaticViews: the length that the distance of its
+  /// features, in the image, has there, times this; > 0. Farther behind it, the place may be hidden from the view,
+  /// which has no vote.
+  double contradiction = 1.0;
 
   /// Offset of the hull's planes to the outside, as a fraction of the diagonal of the region's box;
   /// >= 0, < 10; 0 in the paper. AutomaticMargin: hullMarginCells applies.
@@ -52,7 +59,8 @@ struct FreespaceUnionOptions
 /// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
 /// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
 /// point, the depth of the map less the depth of the point (with minimumViews = k the k-th
-/// greatest). It is continuous except at the silhouette walls, where a view's claim ends.
+/// greatest; with AutomaticViews the j-th greatest counts, too, as far as at most j views contradict). It is
+/// continuous except at the silhouette walls, where a view's claim ends.
 class FreespaceUnion : public ContourField
 {
 public:
@@ -81,7 +89,7 @@ public:
   /// The sign of Value, faster. Zero is matter; points that are not finite are free.
   bool IsFree(const Eigen::Vector3d& point) const;
 
-  /// Whether the point is in the free space of minimumViews views, regardless of the hull.
+  /// Whether enough views have the point in their free space, regardless of the hull.
   bool IsSeenFree(const Eigen::Vector3d& point) const;
 
   bool IsFree(const Eigen::Vector3d& point, const FieldScope& scope) const override;
@@ -102,7 +110,10 @@ public:
     const FieldScope& scope) const override;
   bool IsThreadSafe() const override { return true; }
 
-  int MinimumViews() const { return this->Options.minimumViews; }
+  /// When the votes of the views make a place free.
+  const VoteRule& Rule() const { return this->Votes; }
+  /// The margin of VoteOn for a view of a scope: the surroundings of cameras contradict nothing.
+  double MarginOf(int view) const { return this->Margins[static_cast<std::size_t>(view)]; }
   const FeatureHull& Hull() const { return *this->Region.hull; }
   const RegionOfInterest& FeatureRegion() const { return this->Region.region; }
   /// The lattice that the features in the region ask for, along its longest side.
@@ -124,7 +135,9 @@ private:
     double value;
     Eigen::Vector3d gradient;
   };
-  bool CanOpen(const FieldScope& scope) const;
+  template <typename Question>
+  BoxContent VoteOnBox(
+    const std::vector<int>& views, FieldScope& scope, const Question& question) const;
   int FirstAgreement(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
     const FieldScope& scope, double& place) const;
   SurfaceLabel LabelOfView(
@@ -132,16 +145,25 @@ private:
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
   void CheckCount() const;
-  void ChooseMinimumViews(const std::vector<ViewFeatures>& features, const ParallelFor& parallelFor,
-    const Progress& progress);
+  bool IsVotedFree(
+    const Eigen::Vector3d& point, VoteCount votes, const int* begin, const int* end) const;
+  void FirstMajority(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+    const FieldScope& scope, double& place, SurfaceLabel& label) const;
+  SurfaceLabel LabelOfContradiction(
+    const Eigen::Vector3d& free, const Eigen::Vector3d& matter, const FieldScope& scope) const;
+  Winner Voted(std::vector<Winner> claims, std::vector<Winner> unopposed) const;
+  void FindMargins(const std::vector<ViewFeatures>& features);
   void AddSurroundings(const std::vector<ViewFeatures>& features);
   SurfaceLabel OfMaps(SurfaceLabel label) const;
   const ViewOctree& FreeIndex(const Progress& progress = {}) const;
   const ViewOctree& ClaimIndex() const;
 
   FreespaceUnionOptions Options;
+  VoteRule Votes;
   std::size_t NumberOfMaps;
   std::vector<std::unique_ptr<ViewFreespace>> Views; ///< the maps', then the cameras' surroundings
+  std::vector<int> AllViews;                         ///< their indices
+  std::vector<double> Margins;                       ///< of VoteOn, per view
   std::vector<int> SurroundedView; ///< of those after the maps', the camera's view
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed

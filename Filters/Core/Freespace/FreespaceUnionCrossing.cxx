@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the surface of the union crosses a segment, and what it is there: Crossing and Label.
 #include "Freespace/FreespaceUnion.h"
+#include "Freespace/Votes/VoteSweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,11 @@ bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, cons
       label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
     }
   }
+  if (this->Votes.isMajority)
+  {
+    this->FirstMajority(matter, free, scope, place, label);
+    return place >= 0 && place <= 1;
+  }
   const int opener = this->FirstAgreement(matter, free, scope, place);
   if (opener >= 0)
   {
@@ -34,7 +40,7 @@ bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, cons
   return place >= 0 && place <= 1;
 }
 
-// The first place on a segment, before the given one, where at least minimumViews views are free.
+// The first place on a segment, before the given one, where enough views are free.
 // Returns the view whose interval begins there and updates the place; -1: there is none.
 int FreespaceUnion::FirstAgreement(
   const Vector3d& matter, const Vector3d& free, const FieldScope& scope, double& place) const
@@ -57,7 +63,7 @@ int FreespaceUnion::FirstAgreement(
   for (int view : scope.views)
   {
     this->Views[view]->FreeIntervals(matter, free, intervals);
-    if (this->Options.minimumViews == 1)
+    if (this->Votes.enough == 1)
     {
       if (!intervals.empty() && intervals.front().first < place)
       {
@@ -81,7 +87,7 @@ int FreespaceUnion::FirstAgreement(
   for (const Change& change : changes)
   {
     agreeing += change.step;
-    if (change.step > 0 && agreeing >= this->Options.minimumViews && change.place < place)
+    if (change.step > 0 && agreeing >= this->Votes.enough && change.place < place)
     {
       place = change.place;
       return change.view;
@@ -158,7 +164,58 @@ SurfaceLabel FreespaceUnion::Label(
     label.normal =
       isBorder ? this->Views[view]->WallNormal(free, matter) : front.gradient.normalized();
   }
+  if (label.view < 0 && greatest == 0.0)
+  {
+    label = this->LabelOfContradiction(free, matter, scope);
+  }
   return this->OfMaps(label);
+}
+
+// Finds the first place on a segment, before the given one, where the votes make it free, and labels the surface there.
+void FreespaceUnion::FirstMajority(const Vector3d& matter, const Vector3d& free,
+  const FieldScope& scope, double& place, SurfaceLabel& label) const
+{
+  VoteSweep sweep({ scope.freeViews, scope.againstViews });
+  for (const int view : scope.views)
+  {
+    sweep.Add(view, *this->Views[view], matter, free, this->MarginOf(view));
+  }
+  while (sweep.Next() && sweep.Place() < place)
+  {
+    if (!this->Votes.IsFree(sweep.Votes().free, sweep.Votes().against))
+    {
+      continue;
+    }
+    place = sweep.Place();
+    const Vector3d crossing = matter + place * (free - matter);
+    const Vector3d step = 1e-6 * (free - matter);
+    label = sweep.Opener() >= 0
+      ? this->LabelOfView(sweep.Opener(), crossing, free - matter)
+      : this->LabelOfContradiction(crossing + step, crossing - step, scope);
+    label = this->OfMaps(label);
+    return;
+  }
+}
+
+// The surface where a view ceases to contradict that a place is free, a little behind its map. Nobody saw it: it is a
+// wall.
+SurfaceLabel FreespaceUnion::LabelOfContradiction(
+  const Vector3d& free, const Vector3d& matter, const FieldScope& scope) const
+{
+  SurfaceLabel label;
+  for (const int view : scope.views)
+  {
+    const ViewFreespace& own = *this->Views[view];
+    const double margin = this->MarginOf(view);
+    if (VoteOn(own, matter, margin) == Vote::Against && VoteOn(own, free, margin) == Vote::None)
+    {
+      const ViewFreespace::Sample sample = own.At(Nearer(own, free, margin));
+      return { view, SurfaceKind::Wall,
+        sample.triangle >= 0 ? Vector3d(-sample.gradient.normalized())
+                             : Vector3d(-own.WallNormal(matter, free)) };
+    }
+  }
+  return label;
 }
 
 }

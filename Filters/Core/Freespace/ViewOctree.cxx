@@ -25,13 +25,13 @@ constexpr std::size_t FewViews = 1;
 
 }
 
-ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Question& question,
+ViewOctree::ViewOctree(std::size_t views, const AlignedBox3d& box, const Question& question,
   int enough, int deepestLevel, const Progress& progress)
   : Box(box)
-  , Undecided(views.size())
+  , Undecided(views)
 {
   std::iota(this->Undecided.begin(), this->Undecided.end(), 0);
-  this->Nodes.push_back({ -1, 0, 0, views.size() });
+  this->Nodes.push_back({ -1, {}, 0, views });
   // Breadth first, so that all places are resolved equally well when the limits are reached.
   std::vector<std::pair<std::size_t, AlignedBox3d>> level = { { 0, box } };
   double settled = 0.0;
@@ -42,7 +42,7 @@ ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Questi
     for (const auto& [node, part] : level)
     {
       const std::size_t undecided = this->Nodes[node].end - this->Nodes[node].begin;
-      if (undecided <= FewViews || this->Nodes[node].freeViews >= enough ||
+      if (undecided <= FewViews || this->Nodes[node].votes.free >= enough ||
         this->Nodes.size() + 8 > MostNodes || this->Undecided.size() > MostUndecided)
       {
         settled += share;
@@ -50,7 +50,7 @@ ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Questi
       }
       settled += depth + 1 == deepestLevel ? share : 0.0;
       progress(std::min(settled, 1.0));
-      this->Split(views, question, node, part);
+      this->Split(question, node, part);
       for (int corner = 0; corner < 8; ++corner)
       {
         next.emplace_back(this->Nodes[node].first + corner, Octant(part, corner));
@@ -61,23 +61,22 @@ ViewOctree::ViewOctree(const Views& views, const AlignedBox3d& box, const Questi
   progress(1.0);
 }
 
-void ViewOctree::Split(
-  const Views& views, const Question& question, std::size_t node, const AlignedBox3d& box)
+void ViewOctree::Split(const Question& question, std::size_t node, const AlignedBox3d& box)
 {
   this->Nodes[node].first = static_cast<int>(this->Nodes.size());
   for (int corner = 0; corner < 8; ++corner)
   {
     const AlignedBox3d part = Octant(box, corner);
-    Node child{ -1, this->Nodes[node].freeViews, this->Undecided.size(), 0 };
+    Node child{ -1, this->Nodes[node].votes, this->Undecided.size(), 0 };
     for (std::size_t i = this->Nodes[node].begin; i < this->Nodes[node].end; ++i)
     {
       const int view = this->Undecided[i];
-      const BoxContent content = question(*views[view], part);
-      if (content == BoxContent::Mixed)
+      const Vote vote = question(static_cast<std::size_t>(view), part);
+      if (vote == Vote::Undecided)
       {
         this->Undecided.push_back(view);
       }
-      child.freeViews += content == BoxContent::Free;
+      child.votes.Add(vote);
     }
     child.end = this->Undecided.size();
     this->Nodes.push_back(child);
@@ -86,7 +85,7 @@ void ViewOctree::Split(
 
 ViewOctree::Part ViewOctree::PartOf(const Node& node) const
 {
-  return { node.freeViews, this->Undecided.data() + node.begin, this->Undecided.data() + node.end };
+  return { node.votes, this->Undecided.data() + node.begin, this->Undecided.data() + node.end };
 }
 
 ViewOctree::Part ViewOctree::At(const Vector3d& point) const

@@ -3,10 +3,10 @@
 #define freespace_ViewOctree_h
 
 #include "Common/Progress.h"
-#include "ViewFreespace/ViewFreespace.h"
+#include "Freespace/Votes/ViewVotes.h"
 
+#include <cstddef>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace freespace
@@ -17,21 +17,19 @@ namespace freespace
 class ViewOctree
 {
 public:
-  using Views = std::vector<std::unique_ptr<ViewFreespace>>;
-
-  /// Classifies a box by a view.
-  using Question = std::function<BoxContent(const ViewFreespace&, const Eigen::AlignedBox3d&)>;
+  /// The vote on a box of the view with an index.
+  using Question = std::function<Vote(std::size_t view, const Eigen::AlignedBox3d&)>;
 
   /// Nodes that are free in `enough` views are not split, nor those on the deepest level. The
   /// progress is the fraction of the box that is done; throws Aborted when the progress asks to
   /// stop.
-  ViewOctree(const Views& views, const Eigen::AlignedBox3d& box, const Question& question,
+  ViewOctree(std::size_t views, const Eigen::AlignedBox3d& box, const Question& question,
     int enough, int deepestLevel, const Progress& progress = {});
 
   /// The views of a part of the box.
   struct Part
   {
-    int freeViews;    ///< number of views in which all of the part is free
+    VoteCount votes;  ///< of the views that are of one opinion in all of the part
     const int* begin; ///< the views that are not decided in it
     const int* end;
   };
@@ -51,12 +49,11 @@ private:
   struct Node
   {
     int first = -1; ///< of eight children
-    int freeViews = 0;
+    VoteCount votes;
     std::size_t begin = 0, end = 0; ///< in Undecided
   };
 
-  void Split(
-    const Views& views, const Question& question, std::size_t node, const Eigen::AlignedBox3d& box);
+  void Split(const Question& question, std::size_t node, const Eigen::AlignedBox3d& box);
   Part PartOf(const Node& node) const;
 
   Eigen::AlignedBox3d Box;

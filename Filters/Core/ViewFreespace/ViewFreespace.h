@@ -72,6 +72,9 @@ public:
   /// Whether the view may claim some point of the box, as free or as matter. Conservative.
   bool MayClaim(const Eigen::AlignedBox3d& box) const { return this->Raster.MayCover(box); }
 
+  /// The camera's centre.
+  const Eigen::Vector3d& Center() const { return this->Eye; }
+
   std::size_t NumberOfTriangles() const { return this->Raster.Mesh().Triangles().size(); }
 
 private:

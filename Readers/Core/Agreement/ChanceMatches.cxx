@@ -62,7 +62,8 @@ std::vector<int> ConfirmedByEachOther(const std::vector<ImageAgreement>& agreeme
     const auto companions = std::count_if(agreements.begin(), agreements.end(),
       [&own](const ImageAgreement& agreement)
       {
-        return std::any_of(own.others.begin(), own.others.end(), [&agreement](const auto& other)
+        return std::any_of(own.others.begin(), own.others.end(),
+          [&agreement](const auto& other)
           { return other.first == agreement.image && other.second > 0; });
       });
     if (companions >= 2)

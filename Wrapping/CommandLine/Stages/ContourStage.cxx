@@ -131,7 +131,8 @@ void ContourStage::Choose(Session& session, vtkBisectionContourFilter* contour) 
   side << longest / cells;
   const int views = phi->FindMinimumViews();
   session.Log(RegionOption::Found(phi) + "; " + std::to_string(cells) + " cells of " + side.str() +
-    (views == 1 ? "; 1 view" : "; " + std::to_string(views) + " views") + " to make free");
+    (views == 1 ? "; 1 view" : "; " + std::to_string(views) + " views") +
+    (phi->GetMinimumViews() < 0 ? ", or no fewer than contradict them," : "") + " to make free");
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(

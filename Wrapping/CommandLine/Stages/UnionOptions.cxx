@@ -19,8 +19,8 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
     ->group(group);
   command
     .add_option("--min-views", this->MinimumViews,
-      "Number of views that must see a point as free; auto: 1, or 2 where views contradict each "
-      "other")
+      "Number of views that must see a point as free; auto: 3, or no fewer than "
+      "contradict them, which have it closely behind their own surface; 1 in the paper")
     ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
     ->type_name("auto|INT")
     ->capture_default_str()

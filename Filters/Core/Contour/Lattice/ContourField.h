@@ -32,9 +32,10 @@ struct SurfaceLabel
 /// others again. Only the field that wrote a scope can read it.
 struct FieldScope
 {
-  std::vector<int> views;  ///< neither wholly free nor wholly without a claim in the box
+  std::vector<int> views;  ///< not of one opinion in all the box
   std::vector<int> planes; ///< of the hull, that the box is not wholly inside of
   int freeViews = 0;       ///< how many views are free in all the box
+  int againstViews = 0; ///< and how many say that all of it is matter closely behind their surface
 };
 
 /// A solid as the contour sees it: each point is free or matter. Answers must be safe to ask from
