@@ -16,8 +16,7 @@ namespace
 // By how much a view does not contradict that a place is free: its height above the view's surface, or its depth below
 // the layer in which the view votes against, whatever is more.
 template <typename Winner>
-Winner Unopposed(
-  const ViewFreespace& view, const Vector3d& point, const Winner& own, double margin)
+Winner Unopposed(const ViewFreespace& view, const Vector3d& point, const Winner& own, double margin)
 {
   if (own.value > 0)
   {

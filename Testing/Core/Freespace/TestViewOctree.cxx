@@ -113,15 +113,16 @@ TEST(ViewOctree, AScopeAroundABoxDecidesItsPointsAsTheRootDoes)
 // The cost of a query does not grow with the views that look elsewhere.
 TEST(ViewOctree, OfManyViewsOfAPlainFewAreAsked)
 {
-  ViewOctree::Views views;
+  std::vector<std::unique_ptr<ViewFreespace>> views;
   for (int i = 0; i < 400; ++i)
   {
     views.push_back(std::make_unique<ViewFreespace>(Tile(i % 20, i / 20)));
   }
   const AlignedBox3d box(Vector3d(0, 0, -0.1), Vector3d(19, 19, 0.3));
   const ViewOctree index(
-    views, box,
-    [](const ViewFreespace& view, const AlignedBox3d& part) { return view.Classify(part); }, 1, 7);
+    views.size(), box,
+    [&views](std::size_t view, const AlignedBox3d& part) { return VoteOn(*views[view], part, 0); },
+    1, 7);
   std::srand(1);
   std::ptrdiff_t most = 0;
   for (int i = 0; i < 2000; ++i)
@@ -136,9 +137,10 @@ TEST(ViewOctree, OfManyViewsOfAPlainFewAreAsked)
 TEST(ViewOctree, NoViews)
 {
   const ViewOctree index(
-    {}, AlignedBox3d(Vector3d::Zero(), Vector3d::Ones()),
-    [](const ViewFreespace&, const AlignedBox3d&) { return BoxContent::Mixed; }, 1, 7);
+    0, AlignedBox3d(Vector3d::Zero(), Vector3d::Ones()),
+    [](std::size_t, const AlignedBox3d&) { return Vote::Undecided; }, 1, 7);
   const ViewOctree::Part part = index.At(Vector3d::Constant(0.3));
   EXPECT_EQ(part.begin, part.end);
-  EXPECT_EQ(part.freeViews, 0);
+  EXPECT_EQ(part.votes.free, 0);
+  EXPECT_EQ(part.votes.against, 0);
 }

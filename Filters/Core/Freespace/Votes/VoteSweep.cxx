@@ -59,8 +59,8 @@ bool VoteSweep::Next()
   }
   this->Begun = -1;
   this->At = this->Changes[this->Done].place;
-  for (; this->Done < this->Changes.size() &&
-       this->Changes[this->Done].place <= this->At + together;
+  for (;
+       this->Done < this->Changes.size() && this->Changes[this->Done].place <= this->At + together;
        ++this->Done)
   {
     const Change& change = this->Changes[this->Done];

@@ -25,7 +25,7 @@ public:
   /// Goes on to the next change, at first to the first one. False: there is none.
   bool Next();
 
-  double Place() const { return this->At; }           ///< 0 at the segment's first point, 1 at the last one
+  double Place() const { return this->At; } ///< 0 at the segment's first point, 1 at the last one
   const VoteCount& Votes() const { return this->Now; } ///< after the change
   int Opener() const { return this->Begun; } ///< a view that begins to be free there; -1: none does
 
