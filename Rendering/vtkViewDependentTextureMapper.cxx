@@ -154,7 +154,7 @@ void vtkViewDependentTextureMapper::InternalState::SetParameters(vtkShaderProgra
       Eigen::RowVector4f::Map(rows[3 * i + row]) = pixelFromSurface.row(row).cast<float>();
     }
     Eigen::Vector4d center;
-    center << camera.Center() - this->origin, std::sqrt(camera.K(0, 0) * camera.K(1, 1));
+    center << camera.Center() - this->origin, camera.FocalLength();
     Eigen::Vector4f::Map(centers[i]) = center.cast<float>();
     factors[i] = static_cast<float>(1 - this->photographs.MapOf(i).tolerance);
   }

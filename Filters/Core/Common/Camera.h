@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
+
 namespace freespace
 {
 
@@ -45,6 +47,9 @@ struct Camera
   {
     return Center() + depth * Ray(pixel);
   }
+
+  /// Pixels per unit of x/z and y/z: the geometric mean of both.
+  double FocalLength() const { return std::sqrt(std::abs(K(0, 0) * K(1, 1))); }
 
   /// Whether a pixel lies on the image.
   bool Sees(const Eigen::Vector2d& pixel) const

@@ -28,7 +28,7 @@ double CellSide(const std::vector<ViewFeatures>& views, const Eigen::AlignedBox3
   std::vector<double> sides;
   for (const ViewFeatures& view : views)
   {
-    const double focal = std::sqrt(std::abs(view.camera.K(0, 0) * view.camera.K(1, 1)));
+    const double focal = view.camera.FocalLength();
     const double pixels = std::max(options.cell * view.spacing, options.pixels);
     for (const Eigen::Vector3d& point : view.points)
     {

@@ -93,7 +93,7 @@ double SurfaceColor::Weight(std::size_t photograph, const Eigen::Vector3d& point
   {
     return 0;
   }
-  const double pixels = std::sqrt(camera.K(0, 0) * camera.K(1, 1)) / depth;
+  const double pixels = camera.FocalLength() / depth;
   return confidence * std::pow(cosine * pixels * std::sqrt(confidence), this->Sharpness);
 }
 
@@ -128,7 +128,7 @@ double SurfaceColor::PixelSize(const Eigen::Vector3d& point, const Eigen::Vector
     if (this->Weight(i, point, normal, pixel) > 0)
     {
       const Camera& camera = this->Photographs[i].camera;
-      best = std::min(best, camera.Depth(point) / std::sqrt(camera.K(0, 0) * camera.K(1, 1)));
+      best = std::min(best, camera.Depth(point) / camera.FocalLength());
     }
   }
   return best;

@@ -106,7 +106,7 @@ VisibilityMap MakeVisibilityMap(
 {
   options.Check();
   VisibilityMap map;
-  const double focal = std::sqrt(camera.K(0, 0) * camera.K(1, 1));
+  const double focal = camera.FocalLength();
   map.tolerance = std::min(0.5, options.tolerance / focal);
   map.disparity = RenderDisparity(mesh, camera);
   const DisparityImage& image = map.disparity;

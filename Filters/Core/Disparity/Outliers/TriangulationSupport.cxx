@@ -113,7 +113,7 @@ const std::vector<int>& Neighborhood::Nearest(int point, std::size_t count)
 std::vector<double> LackOfSupport(
   const DisparityMap& map, const OutlierOptions& options, const CancellationFlag& stop)
 {
-  const double focalLength = std::sqrt(std::abs(map.camera.K(0, 0) * map.camera.K(1, 1)));
+  const double focalLength = map.camera.FocalLength();
   const double slope = std::tan(options.steepestAngle * M_PI / 180) / focalLength;
   Neighborhood neighborhood(map);
   std::vector<double> disparity;
