@@ -128,16 +128,16 @@ double FirstBlocked(const FreespaceUnion& phi, const Vector3d& first, const Vect
   way.extend(first + leaves * (last - first));
   const FieldScope scope = phi.ScopeAround(way);
   const VoteRule& rule = phi.Rule();
-  VoteSweep sweep({ scope.freeViews, scope.againstViews });
+  VoteSweep sweep(scope.votes);
   for (const int view : scope.views)
   {
     sweep.Add(view, phi.ViewAt(view), first, last, phi.MarginOf(view));
   }
   double blocked = enters;
-  bool wasFree = rule.IsFree(scope.freeViews, scope.againstViews);
+  bool wasFree = rule.IsFree(scope.votes);
   while (sweep.Next())
   {
-    const bool isFree = rule.IsFree(sweep.Votes().free, sweep.Votes().against);
+    const bool isFree = rule.IsFree(sweep.Votes());
     if (isFree && !wasFree && sweep.Place() > blocked)
     {
       return blocked;

@@ -47,12 +47,12 @@ void CheckTriangles(const DisparityMap& map)
 VoteRule RuleOf(const FreespaceUnionOptions& options, std::size_t views)
 {
   constexpr int enough = 3;
-  VoteRule rule;
-  rule.isMajority = options.minimumViews == FreespaceUnionOptions::AutomaticViews;
-  rule.enough = rule.isMajority
-    ? std::clamp(static_cast<int>(std::min<std::size_t>(views, enough)), 1, enough)
-    : options.minimumViews;
-  return rule;
+  if (options.minimumViews != FreespaceUnionOptions::AutomaticViews)
+  {
+    return { options.minimumViews, false };
+  }
+  // One map is contradicted by nobody.
+  return { std::max(1, static_cast<int>(std::min<std::size_t>(views, enough))), views > 1 };
 }
 
 }
@@ -118,12 +118,13 @@ FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
       }();
       CheckTriangles(map);
       features[i] = FeaturesOfMap(map, i);
-      this->Views[i] = std::make_unique<ViewFreespace>(map, stop);
+      this->Views[i] = std::make_shared<const ViewFreespace>(map, stop);
     });
   const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
   this->Region = MakeRegionHull(features, options.region, options.resolution,
     isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
     progress.Part(0.8, 1.0));
+  this->AddSilhouettes(features);
   this->AddSurroundings(features);
   this->FindMargins(features);
   this->AllViews.resize(this->Views.size());
@@ -137,10 +138,26 @@ void FreespaceUnion::FindMargins(const std::vector<ViewFeatures>& features)
   this->Margins.assign(this->Views.size(), 0);
   for (std::size_t i = 0; this->Votes.isMajority && i < features.size(); ++i)
   {
-    const Eigen::Matrix3d& k = features[i].camera.K;
-    const double focal = std::sqrt(std::abs(k(0, 0) * k(1, 1)));
-    const double margin = this->Options.contradiction * std::max(features[i].spacing, 1.0) / focal;
+    if (features[i].HasNone())
+    {
+      continue; // a silhouette
+    }
+    const double margin = this->Options.contradiction * std::max(features[i].spacing, 1.0) /
+      features[i].camera.FocalLength();
     this->Margins[i] = std::isfinite(margin) ? margin : 0;
+  }
+}
+
+// A map without features is a silhouette, which is certain: it is there as often as makes it free by itself.
+void FreespaceUnion::AddSilhouettes(const std::vector<ViewFeatures>& features)
+{
+  for (std::size_t v = 0; v < features.size(); ++v)
+  {
+    for (int i = 1; features[v].HasNone() && i < this->Votes.enough; ++i)
+    {
+      this->Views.push_back(this->Views[v]);
+      this->SurroundedView.push_back(static_cast<int>(v));
+    }
   }
 }
 
@@ -150,9 +167,10 @@ void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
   for (const DisparityMap& map :
     CameraSurroundings(features, this->Region, this->Options.surroundings))
   {
+    const auto freespace = std::make_shared<const ViewFreespace>(map);
     for (int i = 0; i < this->Votes.enough; ++i)
     {
-      this->Views.push_back(std::make_unique<ViewFreespace>(map));
+      this->Views.push_back(freespace);
       this->SurroundedView.push_back(map.sourceView.front());
     }
   }
@@ -241,8 +259,7 @@ FieldScope FreespaceUnion::ScopeAround(const Eigen::AlignedBox3d& box) const
   {
     const ViewOctree::Part part = this->FreeIndex().Around(box);
     scope.views.assign(part.begin, part.end);
-    scope.freeViews = part.votes.free;
-    scope.againstViews = part.votes.against;
+    scope.votes = part.votes;
   }
   return scope;
 }
@@ -253,15 +270,14 @@ bool FreespaceUnion::IsVotedFree(
 {
   for (const int* view = begin; view != end; ++view)
   {
-    const BoxContent decision =
-      this->Votes.Decide(votes.free, votes.against, static_cast<int>(end - view));
+    const BoxContent decision = this->Votes.Decide(votes, static_cast<std::size_t>(end - view));
     if (decision != BoxContent::Mixed)
     {
       return decision == BoxContent::Free;
     }
     votes.Add(VoteOn(*this->Views[*view], point, this->MarginOf(*view)));
   }
-  return this->Votes.IsFree(votes.free, votes.against);
+  return this->Votes.IsFree(votes);
 }
 
 bool FreespaceUnion::IsSeenFree(const Vector3d& point) const
@@ -289,8 +305,7 @@ bool FreespaceUnion::IsFree(const Vector3d& point, const FieldScope& scope) cons
 {
   const std::vector<int>& views = scope.views;
   return this->Hull().IsEmpty() ||
-    this->IsVotedFree(
-      point, { scope.freeViews, scope.againstViews }, views.data(), views.data() + views.size()) ||
+    this->IsVotedFree(point, scope.votes, views.data(), views.data() + views.size()) ||
     std::any_of(scope.planes.begin(), scope.planes.end(),
       [&](int plane) { return this->Hull().Distance(plane, point) > 0; });
 }
@@ -301,7 +316,7 @@ BoxContent FreespaceUnion::VoteOnBox(
   const std::vector<int>& views, FieldScope& scope, const Question& question) const
 {
   std::vector<int> open;
-  VoteCount votes{ scope.freeViews, scope.againstViews };
+  VoteCount votes = scope.votes;
   for (const int view : views)
   {
     const Vote vote = question(view);
@@ -316,10 +331,8 @@ BoxContent FreespaceUnion::VoteOnBox(
     }
   }
   scope.views = std::move(open);
-  scope.freeViews = votes.free;
-  scope.againstViews = votes.against;
-  const BoxContent content =
-    this->Votes.Decide(votes.free, votes.against, static_cast<int>(scope.views.size()));
+  scope.votes = votes;
+  const BoxContent content = this->Votes.Decide(votes, scope.views.size());
   // The planes of the hull can still make a point free.
   return content == BoxContent::Matter && !scope.planes.empty() ? BoxContent::Mixed : content;
 }
@@ -328,15 +341,13 @@ BoxContent FreespaceUnion::Classify(
   const Eigen::AlignedBox3d& box, const FieldScope& parent, FieldScope& scope) const
 {
   if (this->Hull().IsEmpty() ||
-    this->Votes.Decide(parent.freeViews, parent.againstViews,
-      static_cast<int>(parent.views.size())) == BoxContent::Free)
+    this->Votes.Decide(parent.votes, parent.views.size()) == BoxContent::Free)
   {
     return BoxContent::Free;
   }
   const BoxContent hull = this->Hull().Classify(box, parent.planes, scope.planes);
   scope.views.clear();
-  scope.freeViews = parent.freeViews;
-  scope.againstViews = parent.againstViews;
+  scope.votes = parent.votes;
   if (hull == BoxContent::Free)
   {
     return BoxContent::Free;

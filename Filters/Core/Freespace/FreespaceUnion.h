@@ -54,7 +54,8 @@ struct FreespaceUnionOptions
 };
 
 /// Phi' of section 2.2: the union of the views' free spaces and of the outside of the convex hull
-/// of the features in the region of interest. Features beyond it carve like all others.
+/// of the features in the region of interest. Features beyond it carve like all others. What a map without any feature
+/// has free, a silhouette, is free whatever the other views say.
 ///
 /// The value at a point is negative in matter, positive in free space, zero on the boundary. It is
 /// the greater of two lengths: the signed distance to the hull, and, over the views that claim the
@@ -138,8 +139,6 @@ private:
   template <typename Question>
   BoxContent VoteOnBox(
     const std::vector<int>& views, FieldScope& scope, const Question& question) const;
-  int FirstAgreement(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
-    const FieldScope& scope, double& place) const;
   SurfaceLabel LabelOfView(
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;
@@ -147,12 +146,15 @@ private:
   void CheckCount() const;
   bool IsVotedFree(
     const Eigen::Vector3d& point, VoteCount votes, const int* begin, const int* end) const;
-  void FirstMajority(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+  void FirstFree(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
+    const FieldScope& scope, double& place, SurfaceLabel& label) const;
+  void FirstVotedFree(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
     const FieldScope& scope, double& place, SurfaceLabel& label) const;
   SurfaceLabel LabelOfContradiction(
     const Eigen::Vector3d& free, const Eigen::Vector3d& matter, const FieldScope& scope) const;
   Winner Voted(std::vector<Winner> claims, std::vector<Winner> unopposed) const;
   void FindMargins(const std::vector<ViewFeatures>& features);
+  void AddSilhouettes(const std::vector<ViewFeatures>& features);
   void AddSurroundings(const std::vector<ViewFeatures>& features);
   SurfaceLabel OfMaps(SurfaceLabel label) const;
   const ViewOctree& FreeIndex(const Progress& progress = {}) const;
@@ -161,10 +163,11 @@ private:
   FreespaceUnionOptions Options;
   VoteRule Votes;
   std::size_t NumberOfMaps;
-  std::vector<std::unique_ptr<ViewFreespace>> Views; ///< the maps', then the cameras' surroundings
-  std::vector<int> AllViews;                         ///< their indices
-  std::vector<double> Margins;                       ///< of VoteOn, per view
-  std::vector<int> SurroundedView; ///< of those after the maps', the camera's view
+  /// Of the maps, then those that count more than once: silhouettes and the surroundings of cameras.
+  std::vector<std::shared_ptr<const ViewFreespace>> Views;
+  std::vector<int> AllViews;       ///< their indices
+  std::vector<double> Margins;     ///< of VoteOn, per view
+  std::vector<int> SurroundedView; ///< of those after the maps': the index of their view
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;

@@ -3,9 +3,7 @@
 #include "Freespace/FreespaceUnion.h"
 #include "Freespace/Votes/VoteSweep.h"
 
-#include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace freespace
 {
@@ -26,74 +24,39 @@ bool FreespaceUnion::Crossing(const Vector3d& matter, const Vector3d& free, cons
       label = { -1, SurfaceKind::Hull, this->Hull().Normal(plane) };
     }
   }
-  if (this->Votes.isMajority)
+  const bool isFreeForOne = this->Votes.enough == 1 && !this->Votes.isMajority;
+  if (isFreeForOne)
   {
-    this->FirstMajority(matter, free, scope, place, label);
-    return place >= 0 && place <= 1;
+    this->FirstFree(matter, free, scope, place, label);
   }
-  const int opener = this->FirstAgreement(matter, free, scope, place);
+  else
+  {
+    this->FirstVotedFree(matter, free, scope, place, label);
+  }
+  return place >= 0 && place <= 1;
+}
+
+// Finds the first place on a segment, before the given one, that any view has free, and labels the surface there: the
+// paper's union.
+void FreespaceUnion::FirstFree(const Vector3d& matter, const Vector3d& free,
+  const FieldScope& scope, double& place, SurfaceLabel& label) const
+{
+  thread_local ViewFreespace::Intervals intervals;
+  int opener = -1;
+  for (const int view : scope.views)
+  {
+    this->Views[view]->FreeIntervals(matter, free, intervals);
+    if (!intervals.empty() && intervals.front().first < place)
+    {
+      place = intervals.front().first;
+      opener = view;
+    }
+  }
   if (opener >= 0)
   {
     label =
       this->OfMaps(this->LabelOfView(opener, matter + place * (free - matter), free - matter));
   }
-  return place >= 0 && place <= 1;
-}
-
-// The first place on a segment, before the given one, where enough views are free.
-// Returns the view whose interval begins there and updates the place; -1: there is none.
-int FreespaceUnion::FirstAgreement(
-  const Vector3d& matter, const Vector3d& free, const FieldScope& scope, double& place) const
-{
-  // An interval of a view begins (step 1) or ends (step -1). Ends are sorted first: intervals that
-  // only touch do not overlap.
-  struct Change
-  {
-    double place;
-    int step, view;
-    bool operator<(const Change& other) const
-    {
-      return std::tie(place, step, view) < std::tie(other.place, other.step, other.view);
-    }
-  };
-  thread_local ViewFreespace::Intervals intervals;
-  thread_local std::vector<Change> changes;
-  changes.clear();
-  int opener = -1;
-  for (int view : scope.views)
-  {
-    this->Views[view]->FreeIntervals(matter, free, intervals);
-    if (this->Votes.enough == 1)
-    {
-      if (!intervals.empty() && intervals.front().first < place)
-      {
-        place = intervals.front().first;
-        opener = view;
-      }
-      continue;
-    }
-    for (const auto& [begin, end] : intervals)
-    {
-      if (begin >= place)
-      {
-        break;
-      }
-      changes.push_back({ begin, 1, view });
-      changes.push_back({ end, -1, view });
-    }
-  }
-  std::sort(changes.begin(), changes.end());
-  int agreeing = scope.freeViews;
-  for (const Change& change : changes)
-  {
-    agreeing += change.step;
-    if (change.step > 0 && agreeing >= this->Votes.enough && change.place < place)
-    {
-      place = change.place;
-      return change.view;
-    }
-  }
-  return opener;
 }
 
 // The label of the surface where a view's free interval begins, seen from matter.
@@ -172,17 +135,17 @@ SurfaceLabel FreespaceUnion::Label(
 }
 
 // Finds the first place on a segment, before the given one, where the votes make it free, and labels the surface there.
-void FreespaceUnion::FirstMajority(const Vector3d& matter, const Vector3d& free,
+void FreespaceUnion::FirstVotedFree(const Vector3d& matter, const Vector3d& free,
   const FieldScope& scope, double& place, SurfaceLabel& label) const
 {
-  VoteSweep sweep({ scope.freeViews, scope.againstViews });
+  VoteSweep sweep(scope.votes);
   for (const int view : scope.views)
   {
     sweep.Add(view, *this->Views[view], matter, free, this->MarginOf(view));
   }
   while (sweep.Next() && sweep.Place() < place)
   {
-    if (!this->Votes.IsFree(sweep.Votes().free, sweep.Votes().against))
+    if (!this->Votes.IsFree(sweep.Votes()))
     {
       continue;
     }

@@ -51,6 +51,8 @@ struct ViewFeatures
   std::vector<Eigen::Vector3d> points;   ///< that it found itself: finite, world coordinates
   std::vector<Eigen::Vector3d> inserted; ///< that other views brought in
   double spacing = 1;                    ///< of its own in the image, about, pixels
+
+  bool HasNone() const { return this->points.empty() && this->inserted.empty(); }
 };
 
 struct RegionOfInterest

@@ -3,6 +3,7 @@
 #define freespace_ContourField_h
 
 #include "Common/BoxContent.h"
+#include "Common/Votes.h"
 
 #include <Eigen/Geometry>
 
@@ -34,8 +35,7 @@ struct FieldScope
 {
   std::vector<int> views;  ///< not of one opinion in all the box
   std::vector<int> planes; ///< of the hull, that the box is not wholly inside of
-  int freeViews = 0;       ///< how many views are free in all the box
-  int againstViews = 0; ///< and how many say that all of it is matter closely behind their surface
+  VoteCount votes;         ///< of the views that are of one opinion in all the box
 };
 
 /// A solid as the contour sees it: each point is free or matter. Answers must be safe to ask from

@@ -3,22 +3,15 @@
 #define freespace_ViewVotes_h
 
 #include "Common/BoxContent.h"
+#include "Common/Votes.h"
 #include "ViewFreespace/ViewFreespace.h"
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
+
 namespace freespace
 {
-
-/// What a view says of a place: nothing, that it is free, that it is matter closely behind the view's surface, or, of
-/// all places of a box together, none of these.
-enum class Vote
-{
-  None,
-  Free,
-  Against,
-  Undecided
-};
 
 /// When a place is free by the votes of the views.
 struct VoteRule
@@ -26,30 +19,20 @@ struct VoteRule
   int enough = 1;          ///< this number of views decide whatever the others say
   bool isMajority = false; ///< fewer decide where no more are against
 
-  bool IsFree(int free, int against) const
+  bool IsFree(VoteCount votes) const
   {
-    return free >= this->enough || (this->isMajority && free > 0 && free >= against);
+    return votes.free >= this->enough ||
+      (this->isMajority && votes.free > 0 && votes.free >= votes.against);
   }
 
   /// The decision while a number of views are open, each of which may still vote in any way: Mixed where it depends on
   /// them.
-  BoxContent Decide(int free, int against, int open) const
+  BoxContent Decide(VoteCount votes, std::size_t open) const
   {
-    return this->IsFree(free, against + open) ? BoxContent::Free
-      : this->IsFree(free + open, against)    ? BoxContent::Mixed
-                                              : BoxContent::Matter;
-  }
-};
-
-/// How many views have voted.
-struct VoteCount
-{
-  int free = 0, against = 0;
-
-  void Add(Vote vote)
-  {
-    this->free += vote == Vote::Free;
-    this->against += vote == Vote::Against;
+    const int others = static_cast<int>(open);
+    return this->IsFree({ votes.free, votes.against + others }) ? BoxContent::Free
+      : this->IsFree({ votes.free + others, votes.against })    ? BoxContent::Mixed
+                                                                : BoxContent::Matter;
   }
 };
 
