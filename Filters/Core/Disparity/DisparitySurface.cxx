@@ -220,6 +220,7 @@ void DisparitySurface<Triangulation>::TakeCandidates(int inserted)
     }
     info.firstCandidate = -1;
     ++info.version;
+    info.changed = ++this->Changes;
   }
 }
 

@@ -27,11 +27,14 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Pixel = Kernel::Point_2;
 
 /// Data of a triangle: the head of the list of the candidates inside it, and a number that counts
-/// its changes, by which outdated entries of the queue are recognized.
+/// its changes, by which outdated entries of the queue are recognized. For the flips, when it last changed and when its
+/// edges were last looked at, in changes of all triangles.
 struct FaceInfo
 {
   int firstCandidate = -1;
   unsigned int version = 0;
+  unsigned int changed = 0;
+  unsigned int lookedAt = 0;
 };
 
 /// Data of a vertex: the index of its point, and the point's disparity, which is read often.
@@ -143,6 +146,7 @@ private:
   void TakeCandidates(int inserted);
   void FindStar(Vertex center);
   void Redistribute(Vertex center);
+  static bool IsSettled(Face face, Face neighbor);
   bool WantsFlip(Face face, int index, double leastCotangents) const;
   void Flip(Face face, int index);
   int FlipOnce(double leastCotangents, const CancellationFlag& stop);
@@ -155,6 +159,7 @@ private:
   Triangulation Delaunay;
   std::priority_queue<Highest> Queue;
   double Tolerance = 0;
+  unsigned int Changes = 0;               // of triangles
   std::vector<Face> Star;                 // around the point that is being inserted
   std::vector<int> Homeless;              // the candidates of the triangles that it replaced
   std::unordered_set<std::uint64_t> Kept; // edges that are not flipped, as pairs of points

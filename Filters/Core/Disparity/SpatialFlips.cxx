@@ -36,6 +36,15 @@ std::uint64_t EdgeKey(int a, int b)
 
 }
 
+// Whether the edge between two triangles was looked at, from either side, since they last changed: it is as good now as
+// it was then.
+template <typename Triangulation>
+bool DisparitySurface<Triangulation>::IsSettled(Face face, Face neighbor)
+{
+  const unsigned int changed = std::max(face->info().changed, neighbor->info().changed);
+  return face->info().lookedAt > changed || neighbor->info().lookedAt > changed;
+}
+
 // Whether the edge opposite a vertex of a triangle is to be flipped: the quadrangle is strictly convex in the image,
 // and the other diagonal is the better one in space.
 template <typename Triangulation>
@@ -91,14 +100,16 @@ int DisparitySurface<Triangulation>::FlipOnce(double leastCotangents, const Canc
   for (const Face face : this->Delaunay.finite_face_handles())
   {
     ThrowIfCancelled(stop);
+    const unsigned int now = this->Changes + 1;
     for (int i = 0; i < 3; ++i)
     {
-      if (this->WantsFlip(face, i, leastCotangents))
+      if (!IsSettled(face, face->neighbor(i)) && this->WantsFlip(face, i, leastCotangents))
       {
         this->Flip(face, i);
         ++flips;
       }
     }
+    face->info().lookedAt = now;
   }
   return flips;
 }
@@ -131,11 +142,13 @@ void DisparitySurface<Triangulation>::FlipEdges(
   }
 }
 
+template bool DisparitySurface<PlainTriangulation>::IsSettled(Face, Face);
 template bool DisparitySurface<PlainTriangulation>::WantsFlip(Face, int, double) const;
 template void DisparitySurface<PlainTriangulation>::Flip(Face, int);
 template int DisparitySurface<PlainTriangulation>::FlipOnce(double, const CancellationFlag&);
 template void DisparitySurface<PlainTriangulation>::FlipEdges(
   double, const std::vector<std::array<int, 2>>&, const CancellationFlag&);
+template bool DisparitySurface<ConstrainedTriangulation>::IsSettled(Face, Face);
 template bool DisparitySurface<ConstrainedTriangulation>::WantsFlip(Face, int, double) const;
 template void DisparitySurface<ConstrainedTriangulation>::Flip(Face, int);
 template int DisparitySurface<ConstrainedTriangulation>::FlipOnce(double, const CancellationFlag&);
