@@ -18,9 +18,9 @@ namespace freespace
 /// Options of the fit of a surface to features.
 struct FitSurfaceOptions
 {
-  int rounds = 2;              ///< of smoothing normals and moving vertices; >= 0, 0 fits nothing
+  int rounds = 3;              ///< of smoothing normals and moving vertices; >= 0, 0 fits nothing
   NormalFilterOptions normals; ///< what counts as noise of normals
-  double waviness = 0.05; ///< standard deviation of the slope of a triangle's edges against its
+  double waviness = 0.08; ///< standard deviation of the slope of a triangle's edges against its
                           ///< smoothed normal, radians; > 0
   double reach =
     4e-3; ///< features farther from the surface belong to another one, fraction of depth; > 0

@@ -17,7 +17,7 @@ namespace freespace
 /// Options of the smoothing of normals.
 struct NormalFilterOptions
 {
-  int iterations = 14; ///< each mixes a triangle's normal with those beside it; >= 0
+  int iterations = 18; ///< each mixes a triangle's normal with those beside it; >= 0
   double deviation =
     0.35; ///< normals that differ by more than about two of it do not mix: the length
           ///< of the difference of unit normals; > 0

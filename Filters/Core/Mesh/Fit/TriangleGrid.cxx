@@ -92,7 +92,14 @@ void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double
           const Vector3d &a = this->Points[this->Corners[t][0]],
                          &b = this->Points[this->Corners[t][1]],
                          &c = this->Points[this->Corners[t][2]];
-          if (direction.dot((b - a).cross(c - a)) >= 0)
+          const Vector3d normal = (b - a).cross(c - a);
+          if (direction.dot(normal) >= 0)
+          {
+            continue;
+          }
+          // Farther from the triangle's plane than the nearest place so far, with a margin for rounding.
+          const double above = normal.dot(point - a);
+          if (above * above > 1.000001 * distance * distance * normal.squaredNorm())
           {
             continue;
           }
