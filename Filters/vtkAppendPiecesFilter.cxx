@@ -312,9 +312,10 @@ int vtkAppendPiecesFilter::RequestData(
     {
       output->GetFieldData()->PassData(pieces[0]->GetFieldData());
     }
+    this->CrumbTriangles = 0;
     if (!this->Crumbs)
     {
-      freespace::DropCrumbs(output);
+      this->CrumbTriangles = freespace::DropCrumbs(output);
     }
     if (this->ObservedOnly)
     {
@@ -332,5 +333,6 @@ void vtkAppendPiecesFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Crumbs: " << this->Crumbs << "\n";
+  os << indent << "CrumbTriangles: " << this->CrumbTriangles << "\n";
   os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
 }

@@ -50,6 +50,11 @@ public:
   vtkBooleanMacro(Crumbs, vtkTypeBool);
   ///@}
 
+  /**
+   * After Update(): the number of triangles that were dropped because Crumbs is off.
+   */
+  vtkGetMacro(CrumbTriangles, vtkIdType);
+
 protected:
   vtkAppendPiecesFilter();
   ~vtkAppendPiecesFilter() override = default;
@@ -60,6 +65,7 @@ protected:
   // Defaults are those of freespace::TriangleSelection.
   vtkTypeBool ObservedOnly;
   vtkTypeBool Crumbs;
+  vtkIdType CrumbTriangles = 0;
 
 private:
   vtkAppendPiecesFilter(const vtkAppendPiecesFilter&) = delete;

@@ -4,6 +4,7 @@
 #include "Contour/BisectionContour.h"
 #include "Contour/Lattice/ContourEstimate.h"
 #include "Data/ObservedTriangles.h"
+#include "Data/PointNormals.h"
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/PieceRequest.h"
@@ -423,13 +424,18 @@ int vtkBisectionContourFilter::RequestData(
     {
       TellLattice(output, *task.core, task.options.cells);
     }
+    this->CrumbTriangles = 0;
     if (task.isDirect && !this->Crumbs && task.options.pieces == 1)
     {
-      freespace::DropCrumbs(output);
+      this->CrumbTriangles = freespace::DropCrumbs(output);
     }
     if (this->ObservedOnly && task.isDirect)
     {
       freespace::KeepObserved(output);
+    }
+    if (this->ComputeNormals)
+    {
+      freespace::ComputePointNormals(output);
     }
   }
   catch (...)
@@ -456,6 +462,8 @@ void vtkBisectionContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SharpEdges: " << this->SharpEdges << "\n";
   os << indent << "SharpAngle: " << this->SharpAngle << "\n";
   os << indent << "Crumbs: " << this->Crumbs << "\n";
+  os << indent << "CrumbTriangles: " << this->CrumbTriangles << "\n";
   os << indent << "ObservedOnly: " << this->ObservedOnly << "\n";
+  os << indent << "ComputeNormals: " << this->ComputeNormals << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

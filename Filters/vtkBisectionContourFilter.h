@@ -144,6 +144,11 @@ public:
   vtkBooleanMacro(Crumbs, vtkTypeBool);
   ///@}
 
+  /**
+   * After Update(): the number of triangles that were dropped because Crumbs is off.
+   */
+  vtkGetMacro(CrumbTriangles, vtkIdType);
+
   ///@{
   /**
    * Keep only observed triangles: those of Kind 0, and those close to a feature. The result is an open
@@ -153,6 +158,16 @@ public:
   vtkSetMacro(ObservedOnly, vtkTypeBool);
   vtkGetMacro(ObservedOnly, vtkTypeBool);
   vtkBooleanMacro(ObservedOnly, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the points get Normals: of unit length, towards the free space, the mean of the normals of a point's
+   * triangles; of a piece, of its own triangles. vtkFitSurfaceFilter keeps them up to date. Default off.
+   */
+  vtkSetMacro(ComputeNormals, vtkTypeBool);
+  vtkGetMacro(ComputeNormals, vtkTypeBool);
+  vtkBooleanMacro(ComputeNormals, vtkTypeBool);
   ///@}
 
   ///@{
@@ -198,7 +213,9 @@ protected:
   vtkTypeBool SharpEdges;
   double SharpAngle;
   vtkTypeBool Crumbs;
+  vtkIdType CrumbTriangles = 0;
   vtkTypeBool ObservedOnly;
+  vtkTypeBool ComputeNormals = false;
   double MemoryLimit;
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayDisparityFilter.h"
 
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 #include "Disparity/Maps/DisparityMaps.h"
@@ -64,7 +65,8 @@ int vtkDelaunayDisparityFilter::RequestData(
   try
   {
     const auto input = freespace::ViewsOf(inputVector[0]);
-    std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
+    std::vector<freespace::View> views =
+      freespace::ViewsFromBlocks(freespace::WithoutSilhouettes(input));
     std::vector<vtkSmartPointer<vtkPolyData>> blocks(views.size());
     std::vector<std::string> names;
     for (const freespace::View& view : views)
@@ -79,6 +81,7 @@ int vtkDelaunayDisparityFilter::RequestData(
     {
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), names[i], blocks[i]);
     }
+    freespace::AppendSilhouettes(input, output);
   }
   catch (...)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFitSurfaceFilter.h"
 
+#include "Data/PointNormals.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 #include "Execution/AlgorithmErrors.h"
@@ -14,6 +15,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
@@ -139,6 +141,10 @@ int vtkFitSurfaceFilter::RequestData(
       points->SetPoint(static_cast<vtkIdType>(i), fitted[i].data());
     }
     output->SetPoints(points);
+    if (input->GetPointData()->GetNormals())
+    {
+      freespace::ComputePointNormals(output);
+    }
   }
   catch (...)
   {

@@ -73,6 +73,7 @@ vtkFreespaceUnion::vtkFreespaceUnion()
   const freespace::FreespaceUnionOptions options;
   this->MinimumViews = options.minimumViews;
   this->HullMargin = options.hullMargin;
+  this->Contradiction = options.contradiction;
 }
 
 vtkFreespaceUnion::~vtkFreespaceUnion() = default;
@@ -184,6 +185,7 @@ void vtkFreespaceUnion::Build(const freespace::Progress& progress)
   freespace::FreespaceUnionOptions options;
   options.minimumViews = this->MinimumViews;
   options.hullMargin = this->HullMargin;
+  options.contradiction = this->Contradiction;
   using Mode = freespace::RegionOptions::Mode;
   options.region.mode = this->RegionMode == BOX_REGION ? Mode::Box
     : this->RegionMode == WHOLE_REGION                 ? Mode::All
@@ -453,6 +455,7 @@ void vtkFreespaceUnion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
+  os << indent << "Contradiction: " << this->Contradiction << "\n";
   os << indent << "RegionMode: " << this->RegionMode << "\n";
   os << indent << "Region:";
   for (double bound : this->Region)

@@ -112,6 +112,16 @@ public:
   void SetHullMarginToAutomatic() { this->SetHullMargin(-1); }
   ///@}
 
+  ///@{
+  /**
+   * How far behind its own surface a view contradicts that a place is free, with automatic MinimumViews: the length
+   * that the distance of its features, in the image, has there, times this. Farther behind it the place may be hidden,
+   * and the view has no vote. Above 0. Default 1.
+   */
+  vtkSetMacro(Contradiction, double);
+  vtkGetMacro(Contradiction, double);
+  ///@}
+
   enum RegionModes
   {
     AUTOMATIC_REGION = 0,
@@ -249,6 +259,7 @@ protected:
   // Defaults are those of freespace::FreespaceUnionOptions.
   int MinimumViews;
   double HullMargin;
+  double Contradiction;
   int RegionMode = AUTOMATIC_REGION;
   double Region[6] = { 1, -1, 1, -1, 1, -1 };
   vtkTypeBool AbortExecute = 0;

@@ -3,6 +3,7 @@
 
 #include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 
@@ -106,7 +107,7 @@ int vtkMergeViewsFilter::RequestData(
     std::multimap<std::string, std::size_t> ofImage;
     for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)
     {
-      const auto input = freespace::ViewsOf(inputVector[0], i);
+      const auto input = freespace::WithoutSilhouettes(freespace::ViewsOf(inputVector[0], i));
       const std::vector<freespace::View> own = freespace::ViewsFromBlocks(input);
       for (unsigned int k = 0; k < input->GetNumberOfBlocks(); ++k)
       {
@@ -118,6 +119,10 @@ int vtkMergeViewsFilter::RequestData(
       freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,
         views[i].blocks.size() == 1 ? vtkSmartPointer<vtkPolyData>(views[i].blocks.front())
                                     : Merge(views[i]));
+    }
+    for (int i = 0; i < inputVector[0]->GetNumberOfInformationObjects(); ++i)
+    {
+      freespace::AppendSilhouettes(freespace::ViewsOf(inputVector[0], i), output);
     }
   }
   catch (...)

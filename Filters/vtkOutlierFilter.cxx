@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOutlierFilter.h"
 
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 #include "Disparity/Outliers/Outliers.h"
@@ -110,7 +111,8 @@ int vtkOutlierFilter::RequestData(
   vtkMultiBlockDataSet* output = vtkMultiBlockDataSet::GetData(outputVector);
   try
   {
-    const auto input = freespace::ViewsOf(inputVector[0]);
+    const auto given = freespace::ViewsOf(inputVector[0]);
+    const auto input = freespace::WithoutSilhouettes(given);
     const std::vector<freespace::View> views = freespace::ViewsFromBlocks(input);
     const auto accepted = freespace::AcceptedFeatures(
       views, this->Outliers(), {}, freespace::SMPParallelFor, freespace::AlgorithmProgress(this));
@@ -120,6 +122,7 @@ int vtkOutlierFilter::RequestData(
       freespace::SetNamedBlock(output, index, views[i].name,
         KeepAccepted(vtkPolyData::SafeDownCast(input->GetBlock(index)), accepted[i]));
     }
+    freespace::AppendSilhouettes(given, output);
   }
   catch (...)
   {

@@ -13,6 +13,7 @@
 #include "Agreement/SceneFeatures.h"
 #include "Refinement/CameraRefinement.h"
 #include "Scene/EveryImage.h"
+#include "Silhouettes/SilhouetteMaps.h"
 #include "Stereo/EdgeStereo.h"
 #include "vtkClusterProposal.h"
 
@@ -30,6 +31,7 @@
 #include <exception>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 vtkStandardNewMacro(vtkEdgeStereoReader);
 
@@ -52,7 +54,7 @@ private:
 // Up to this number of images, a view of every image takes little time; with more, the references see enough.
 constexpr std::size_t FewImages = 15;
 
-bool IsSmall(const std::vector<freespace::Cluster>& clusters)
+std::size_t NumberOfImages(const std::vector<freespace::Cluster>& clusters)
 {
   std::set<std::string> images;
   for (const freespace::Cluster& cluster : clusters)
@@ -62,7 +64,7 @@ bool IsSmall(const std::vector<freespace::Cluster>& clusters)
       images.insert(triplet.begin(), triplet.end());
     }
   }
-  return images.size() <= FewImages;
+  return images.size();
 }
 
 // The files that the features are computed from, beside the scene.json.
@@ -107,20 +109,75 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
   return static_cast<long long>(time);
 }
 
-// The cameras of the scene's images, refined by its edges if requested.
+// The cameras of the scene's images, refined by its edges if requested; and a line about it.
 std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene& checked,
   freespace::EdgeStore& edges, const freespace::MatcherOptions& matching, int mode,
-  const freespace::Progress& progress)
+  const freespace::Progress& progress, std::string& summary)
 {
   constexpr std::size_t small = 200; // images
   const freespace::SparseModel& model = checked.model;
   const bool isWanted = mode == vtkEdgeStereoReader::REFINE_ALWAYS ||
     (mode == vtkEdgeStereoReader::REFINE_SMALL_SCENES && model.images.size() <= small);
-  return isWanted
-    ? freespace::RefineCameras(checked.given, model, edges, matching,
-        freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress, checked.tracks)
-        .images
-    : freespace::CalibratedImages(model);
+  if (!isWanted)
+  {
+    summary = "as given" +
+      (mode == vtkEdgeStereoReader::REFINE_NEVER
+          ? std::string()
+          : ", because there are more than " + std::to_string(small) + " images");
+    return freespace::CalibratedImages(model);
+  }
+  const freespace::CameraRefinement refined =
+    freespace::RefineCameras(checked.given, model, edges, matching,
+      freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress, checked.tracks);
+  std::ostringstream line;
+  line.precision(2);
+  if (refined.isRefined)
+  {
+    line << "refined by the edges, which lie " << refined.residuals.residualAfter
+         << " pixels from where the cameras expect them in the median, "
+         << refined.residuals.residualBefore << " before";
+  }
+  else
+  {
+    line << "as given, they fit the edges";
+  }
+  summary = line.str();
+  return refined.images;
+}
+
+// What the reader works on.
+struct Input
+{
+  freespace::Scene scene;
+  freespace::SparseModel model;
+};
+
+Input InMemory(freespace::MemoryScene memory)
+{
+  return { std::move(memory.scene), std::move(memory.model) };
+}
+
+Input InFile(const std::string& fileName, std::string& imageSummary)
+{
+  freespace::Scene scene = freespace::ReadScene(fileName);
+  freespace::SparseModel model = freespace::ReadSceneModel(scene, &imageSummary);
+  return { std::move(scene), std::move(model) };
+}
+
+// The views' blocks, then those of the silhouettes.
+void FillBlocks(const std::vector<freespace::EdgeView>& views,
+  const std::vector<freespace::DisparityMap>& silhouettes, vtkMultiBlockDataSet* output)
+{
+  const auto append = [output](const std::string& name, vtkPolyData* block)
+  { freespace::SetNamedBlock(output, output->GetNumberOfBlocks(), name, block); };
+  for (const freespace::EdgeView& view : views)
+  {
+    append(view.name, freespace::BlockFromEdgeView(view));
+  }
+  for (const freespace::DisparityMap& map : silhouettes)
+  {
+    append(map.name, freespace::BlockFromMap(map));
+  }
 }
 
 }
@@ -233,6 +290,21 @@ freespace::MemoryScene vtkEdgeStereoReader::SceneOf(vtkInformationVector* images
   return { freespace::ImagesFromBlocks(freespace::ViewsOf(images)), std::move(clusters) };
 }
 
+// And says so.
+bool vtkEdgeStereoReader::IsEveryImageAView(std::size_t images)
+{
+  const bool isIt =
+    this->EveryImage == ALWAYS || (this->EveryImage == IN_SMALL_SCENES && images <= FewImages);
+  this->ViewSummary =
+    isIt ? "every image of a cluster is one" : "the reference of each cluster is one";
+  if (this->EveryImage == IN_SMALL_SCENES)
+  {
+    this->ViewSummary += ", because the clusters have " + std::to_string(images) + " images, " +
+      (isIt ? "no more than " : "more than ") + std::to_string(FewImages);
+  }
+  return isIt;
+}
+
 int vtkEdgeStereoReader::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -240,34 +312,31 @@ int vtkEdgeStereoReader::RequestData(
   this->FilesRead.clear();
   this->ClusterSummary.clear();
   this->ImageSummary.clear();
+  this->CameraSummary.clear();
+  this->ViewSummary.clear();
   this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
   this->SetErrorCode(vtkErrorCode::NoError);
   const bool isInMemory = inputVector[0]->GetNumberOfInformationObjects() > 0;
   try
   {
     const freespace::EdgeStereoOptions options = this->StereoOptions();
-    freespace::Scene given;
-    freespace::SparseModel model;
-    if (isInMemory)
-    {
-      freespace::MemoryScene memory = this->SceneOf(inputVector[0]);
-      given = std::move(memory.scene);
-      model = std::move(memory.model);
-    }
-    else if (!this->Triplets.empty())
+    if (!isInMemory && !this->Triplets.empty())
     {
       throw freespace::Error("There are triplets, but no images are connected.");
     }
-    else
+    Input input = isInMemory ? InMemory(this->SceneOf(inputVector[0]))
+                             : InFile(this->FileName, this->ImageSummary);
+    const freespace::Scene& given = input.scene;
+    if (this->MaskIsFree && given.masks.empty())
     {
-      given = freespace::ReadScene(this->FileName);
-      model = freespace::ReadSceneModel(given, &this->ImageSummary);
+      throw freespace::Error("Masks are asked to show free space, but the scene " + given.file +
+        (given.file.empty() ? "in memory" : "") + " has none.");
     }
     const SingleThreadedOpenCV guard;
     freespace::EdgeStore edges(given, options.edges);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
     freespace::CheckedScene checked =
-      freespace::CheckScene(given, std::move(model), edges, options.matching,
+      freespace::CheckScene(given, std::move(input.model), edges, options.matching,
         this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
                               : freespace::ClusterProposalOptions(),
         this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
@@ -276,25 +345,25 @@ int vtkEdgeStereoReader::RequestData(
     this->FilesRead = FilesOf(scene);
     this->FilesTime = TimeOfFiles(this->FileName, this->FilesRead);
     const std::size_t needed = scene.clusters.size();
-    if (this->EveryImage == ALWAYS ||
-      (this->EveryImage == IN_SMALL_SCENES && IsSmall(scene.clusters)))
+    if (this->IsEveryImageAView(NumberOfImages(scene.clusters)))
     {
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
     }
-    const std::vector<freespace::CalibratedImage> images =
-      CamerasOf(checked, edges, options.matching, this->RefineCameras, progress.Part(0.2, 0.6));
-    const std::vector<freespace::EdgeView> views = freespace::FindSceneFeatures(scene, images,
-      edges, needed, options, freespace::SMPParallelFor, progress.Part(0.6, 1), checked.warnings);
+    const std::vector<freespace::CalibratedImage> images = CamerasOf(checked, edges,
+      options.matching, this->RefineCameras, progress.Part(0.2, 0.6), this->CameraSummary);
+    const std::vector<freespace::EdgeView> views =
+      freespace::FindSceneFeatures(scene, images, edges, needed, options, freespace::SMPParallelFor,
+        progress.Part(0.6, 0.95), checked.warnings);
+    const std::vector<freespace::DisparityMap> silhouettes = this->MaskIsFree
+      ? freespace::SilhouetteMaps(
+          scene, images, views, freespace::SMPParallelFor, progress.Part(0.95, 1))
+      : std::vector<freespace::DisparityMap>();
     for (const std::string& warning : checked.warnings)
     {
       vtkWarningMacro(<< warning);
     }
-    for (std::size_t i = 0; i < views.size(); ++i)
-    {
-      freespace::SetNamedBlock(output, static_cast<unsigned int>(i), views[i].name,
-        freespace::BlockFromEdgeView(views[i]));
-    }
+    FillBlocks(views, silhouettes, output);
   }
   catch (...)
   {
@@ -324,6 +393,7 @@ void vtkEdgeStereoReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Patches: " << this->Patches << "\n";
   os << indent << "EveryImage: " << this->EveryImage << "\n";
   os << indent << "RefineCameras: " << this->RefineCameras << "\n";
+  os << indent << "MaskIsFree: " << this->MaskIsFree << "\n";
   os << indent << "CheckImages: " << this->CheckImages << "\n";
   os << indent << "ClusterProposal: " << this->ClusterProposal.Get() << "\n";
   os << indent << "ImageSummary: " << this->ImageSummary << "\n";

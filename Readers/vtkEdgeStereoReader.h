@@ -237,6 +237,19 @@ public:
 
   ///@{
   /**
+   * Whether the rays through the black pixels of the images' masks are free space: every image of the camera model
+   * that has a mask gives a silhouette, with which the surface lies within the visual hull of the masks. Silhouettes
+   * are blocks behind those of the views, named after the image, with triangles behind all features; their points
+   * have the SourceView -1 and are no features. The scene must have masks. For turntables and objects in front of a
+   * background that is masked. Default off: what is masked is not known.
+   */
+  vtkSetMacro(MaskIsFree, vtkTypeBool);
+  vtkGetMacro(MaskIsFree, vtkTypeBool);
+  vtkBooleanMacro(MaskIsFree, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * How clusters are chosen where the scene.json names none: by the parameters of this object. None, the
    * default, stands for one with the default parameters.
    */
@@ -255,6 +268,16 @@ public:
    * are then scaled. Empty when none has.
    */
   std::string GetImageSummary() { return this->ImageSummary; }
+
+  /**
+   * After Update(): in one line, whether the poses of the cameras were refined, and what that brought.
+   */
+  std::string GetCameraSummary() { return this->CameraSummary; }
+
+  /**
+   * After Update(): in one line, whether every image of a cluster is a view or its reference alone, and why.
+   */
+  std::string GetViewSummary() { return this->ViewSummary; }
 
   /**
    * Later than the reader's own modification time when one of the files that it has read has changed since:
@@ -285,9 +308,11 @@ protected:
   int EveryImage = IN_SMALL_SCENES;
   int RefineCameras = REFINE_SMALL_SCENES;
   vtkTypeBool CheckImages = true;
+  vtkTypeBool MaskIsFree = false;
 
 private:
   freespace::EdgeStereoOptions StereoOptions() const;
+  bool IsEveryImageAView(std::size_t images);
   freespace::MemoryScene SceneOf(vtkInformationVector* images) const;
 
   vtkEdgeStereoReader(const vtkEdgeStereoReader&) = delete;
@@ -296,6 +321,8 @@ private:
   vtkSmartPointer<vtkClusterProposal> ClusterProposal;
   std::string ClusterSummary;
   std::string ImageSummary;
+  std::string CameraSummary;
+  std::string ViewSummary;
   vtkTimeStamp FilesChanged;
   long long FilesTime = 0;            // of when all of them were written
   std::vector<std::string> FilesRead; // beside the scene's

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFeatureOverlayWriter.h"
 
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 #include "Execution/AlgorithmProgress.h"
@@ -63,7 +64,7 @@ void vtkFeatureOverlayWriter::WriteData()
         throw freespace::Error("Cannot write pictures: their folder has no name.");
       }
       const freespace::Progress progress = freespace::AlgorithmProgress(this);
-      const auto blocks = freespace::ViewsOf(this->GetInput());
+      const auto blocks = freespace::WithoutSilhouettes(freespace::ViewsOf(this->GetInput()));
       const std::vector<freespace::View> views = freespace::ViewsFromBlocks(blocks);
       std::vector<std::string> names;
       for (const freespace::View& view : views)

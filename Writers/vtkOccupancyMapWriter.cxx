@@ -253,6 +253,7 @@ vtkOccupancyMapWriter::vtkOccupancyMapWriter()
   const freespace::FreespaceUnionOptions options;
   this->HullMargin = options.hullMargin;
   this->MinimumViews = options.minimumViews;
+  this->Contradiction = options.contradiction;
 }
 
 int vtkOccupancyMapWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -275,6 +276,7 @@ void vtkOccupancyMapWriter::WriteData()
       freespace::FreespaceUnionOptions options;
       options.hullMargin = this->HullMargin;
       options.minimumViews = this->MinimumViews;
+      options.contradiction = this->Contradiction;
       options.Check();
       if (!(this->Resolution >= 0 && std::isfinite(this->Resolution)))
       {
@@ -287,6 +289,7 @@ void vtkOccupancyMapWriter::WriteData()
       phi->SetMaps(blocks);
       phi->SetHullMargin(this->HullMargin);
       phi->SetMinimumViews(this->MinimumViews);
+      phi->SetContradiction(this->Contradiction);
       if (this->RegionMode == vtkFreespaceUnion::BOX_REGION)
       {
         phi->SetRegion(this->Region);
@@ -335,6 +338,7 @@ void vtkOccupancyMapWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
+  os << indent << "Contradiction: " << this->Contradiction << "\n";
   os << indent << "RegionMode: " << this->RegionMode << "\n";
   os << indent << "Region:";
   for (double bound : this->Region)

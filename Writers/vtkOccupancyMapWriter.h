@@ -62,6 +62,14 @@ public:
 
   ///@{
   /**
+   * See vtkFreespaceUnion::SetContradiction. Default 1.
+   */
+  vtkSetMacro(Contradiction, double);
+  vtkGetMacro(Contradiction, double);
+  ///@}
+
+  ///@{
+  /**
    * The region of interest, as in vtkFreespaceUnion. Default automatic.
    */
   vtkSetClampMacro(RegionMode, int, 0, 2);
@@ -84,6 +92,7 @@ protected:
   // Defaults are those of freespace::FreespaceUnionOptions.
   double HullMargin;
   int MinimumViews;
+  double Contradiction;
   int RegionMode = 0;
   double Region[6] = { 1, -1, 1, -1, 1, -1 };
 

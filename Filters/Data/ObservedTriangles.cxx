@@ -167,12 +167,12 @@ void KeepObserved(vtkPolyData* surface)
   KeepTriangles(surface, isKept);
 }
 
-void DropCrumbs(vtkPolyData* surface)
+std::int64_t DropCrumbs(vtkPolyData* surface)
 {
   vtkUnsignedCharArray* supported = CellMarks(surface, SupportedName);
   if (!supported || surface->GetNumberOfPolys() == 0)
   {
-    return;
+    return 0;
   }
   std::vector<std::array<std::int64_t, 3>> triangles;
   std::vector<char> isSupported;
@@ -187,10 +187,12 @@ void DropCrumbs(vtkPolyData* surface)
   }
   const std::vector<char> isKept =
     SupportedComponents(ComponentsOf(triangles, surface->GetNumberOfPoints()), isSupported);
-  if (!std::all_of(isKept.begin(), isKept.end(), [](char kept) { return kept; }))
+  const auto dropped = std::count(isKept.begin(), isKept.end(), 0);
+  if (dropped > 0)
   {
     KeepTriangles(surface, isKept);
   }
+  return dropped;
 }
 
 }

@@ -4,6 +4,8 @@
 
 #include "vtkFreespaceFiltersModule.h"
 
+#include <cstdint>
+
 class vtkPolyData;
 
 namespace freespace
@@ -29,8 +31,8 @@ VTKFREESPACEFILTERS_EXPORT void KeepObserved(vtkPolyData* surface);
 VTKFREESPACEFILTERS_EXPORT void DropRepeated(vtkPolyData* surface);
 
 /// Drops the connected components of a contour without a triangle that is close to a feature, except the
-/// largest one. A surface without that array is unchanged.
-VTKFREESPACEFILTERS_EXPORT void DropCrumbs(vtkPolyData* surface);
+/// largest one. A surface without that array is unchanged. The number of triangles dropped.
+VTKFREESPACEFILTERS_EXPORT std::int64_t DropCrumbs(vtkPolyData* surface);
 
 }
 

@@ -16,6 +16,7 @@
 #include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkSphere.h>
@@ -38,6 +39,31 @@ void ExpectSphere(vtkPolyData* surface)
   EXPECT_EQ(surface->GetNumberOfPolys(), 2 * surface->GetNumberOfPoints() - 4);
 }
 
+}
+
+TEST(vtkBisectionContourFilter, NormalsPointIntoFreeSpace)
+{
+  vtkNew<vtkSphere> ball;
+  ball->SetRadius(0.4);
+  vtkNew<vtkBisectionContourFilter> contour;
+  contour->SetImplicitFunction(ball);
+  contour->SetBounds(-0.5, 0.5, -0.5, 0.5, -0.5, 0.5);
+  contour->SetCells(24);
+  contour->SharpEdgesOff();
+  contour->Update();
+  EXPECT_EQ(contour->GetOutput()->GetPointData()->GetNormals(), nullptr) << "only if asked for";
+  contour->ComputeNormalsOn();
+  contour->Update();
+  vtkDataArray* normals = contour->GetOutput()->GetPointData()->GetNormals();
+  ASSERT_NE(normals, nullptr);
+  ASSERT_EQ(normals->GetNumberOfTuples(), contour->GetOutput()->GetNumberOfPoints());
+  EXPECT_STREQ(normals->GetName(), "Normals");
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+  {
+    const Eigen::Vector3d point(contour->GetOutput()->GetPoint(i)), normal(normals->GetTuple3(i));
+    ASSERT_NEAR(normal.norm(), 1, 1e-5);
+    ASSERT_GT(normal.dot(point.normalized()), std::cos(6 * M_PI / 180));
+  }
 }
 
 TEST(vtkBisectionContourFilter, ContoursAUnion)

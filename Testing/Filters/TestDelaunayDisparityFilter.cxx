@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <sstream>
 
@@ -66,6 +67,28 @@ void ExpectSameMaps(const std::vector<DisparityMap>& a, const std::vector<Dispar
   }
 }
 
+}
+
+TEST(DelaunayDisparityFilter, SpatialFlipsReachTheCore)
+{
+  const std::vector<View> views = MakeViews();
+  std::vector<std::vector<std::array<int, 3>>> triangles;
+  for (const bool isOn : { false, true })
+  {
+    DelaunayDisparityOptions options;
+    options.spatialFlips = isOn;
+    vtkNew<vtkDelaunayDisparityFilter> filter;
+    filter->SetInputDataObject(Blocks(views));
+    filter->SetSupport(0);
+    filter->SetFeatureSpacing(0);
+    filter->ContinueBackgroundOff();
+    filter->SetSpatialFlips(isOn);
+    filter->Update();
+    const std::vector<DisparityMap> maps = MapsFromBlocks(filter->GetOutput());
+    ExpectSameMaps(maps, TriangulateViews(views, options));
+    triangles.push_back(maps.front().triangles);
+  }
+  EXPECT_NE(triangles[0], triangles[1]) << "nothing is flipped";
 }
 
 TEST(DelaunayDisparityFilter, GivesTheMapsOfTheCoreForAnyNumberOfThreads)

@@ -2,6 +2,7 @@
 // A sphere with noise, fitted to features of the true one.
 #include "vtkFitSurfaceFilter.h"
 
+#include "Data/PointNormals.h"
 #include "Data/ViewBlocks.h"
 #include "Support/ErrorObserver.h"
 #include "Support/FeatureViews.h"
@@ -105,6 +106,27 @@ TEST(FitSurfaceFilter, BringsASphereBackToItsFeatures)
     EXPECT_EQ(fitted->GetCellData()->GetArray("View")->GetRange()[0], 7) << "cell arrays pass";
     EXPECT_NEAR(RootMeanSquare(sphere), 0.01, 0.001) << "the input is as it was";
   }
+}
+
+TEST(FitSurfaceFilter, NormalsAreThoseOfTheFittedSurface)
+{
+  const auto sphere = NoisySphere();
+  ComputePointNormals(sphere);
+  vtkNew<vtkFitSurfaceFilter> fit;
+  fit->SetInputData(0, sphere);
+  fit->SetInputDataObject(1, Features());
+  fit->Update();
+  const auto error = [](vtkPolyData* surface)
+  {
+    double sum = 0;
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+    {
+      const Eigen::Vector3d normal(surface->GetPointData()->GetNormals()->GetTuple3(i));
+      sum += (normal - Eigen::Vector3d(surface->GetPoint(i)).normalized()).norm();
+    }
+    return sum / static_cast<double>(surface->GetNumberOfPoints());
+  };
+  EXPECT_LT(error(fit->GetOutput()), 0.6 * error(sphere));
 }
 
 TEST(FitSurfaceFilter, NoRoundsLeaveTheSurface)
