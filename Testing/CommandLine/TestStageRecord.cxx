@@ -43,6 +43,18 @@ TEST(StageRecord, IsCurrentWithTheSameOptionsAndOlderInputs)
   EXPECT_FALSE(record.IsCurrent("maps", { "--cells", "7" }, output, { input }));
 }
 
+TEST(StageRecord, KeepsChoices)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.Path("stages.json");
+  const Choices choices = { { "clusters", "3 of 5" }, { "clusters", "none" } };
+  StageRecord(file).Set("features", {}, 1, 0, choices);
+  StageRecord(file).Set("maps", {}, 1);
+  EXPECT_EQ(StageRecord(file).ChoicesOf("features"), choices);
+  EXPECT_TRUE(StageRecord(file).ChoicesOf("maps").empty());
+  EXPECT_TRUE(StageRecord(file).ChoicesOf("surface").empty());
+}
+
 TEST(StageRecord, LooksIntoFolders)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stages/SupportOption.h"
+#include "Options/SupportOption.h"
 
 #include "Disparity/Outliers/OutlierOptions.h"
 

@@ -277,6 +277,14 @@ for command, inputs in OUTPUTS.items():
         row(f'{command} with another ending', {}, [command, *inputs, '-o', 'out.xyz'], r'out\.xyz')
         row(f'{command} without an ending', {}, [command, *inputs, '-o', 'out'], 'out')
 
+# Masks that are asked to be free space.
+
+for command in ('stereo', 'reconstruct', 'report'):
+    row(f'{command} with free masks and no masks', {},
+        [command, 'scene.json', '--mask-is-free', '-o', f'out{ENDINGS.get(command, "")}'], r'scene\.json')
+row('reconstruct of a model with free masks', {}, ['reconstruct', 'model', '--mask-is-free', '-o', 'out.ply'],
+    '--mask-is-free .*model')
+
 # Boards, options and files of options.
 
 for board in ('', 'charuco', 'dots:9x6:1', 'chessboard:9:1', 'chessboard:9x6', 'chessboard:ax6:1', 'chessboard:9x6:0',

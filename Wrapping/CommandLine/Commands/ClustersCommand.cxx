@@ -3,7 +3,7 @@
 
 #include "Output/SurfaceFiles.h"
 #include "Session/Session.h"
-#include "Stages/ClusterChoice.h"
+#include "Options/ClusterChoice.h"
 
 #include <vtkClusterProposal.h>
 #include <vtkNew.h>

@@ -5,7 +5,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
-#include "Stages/UnionOptions.h"
+#include "Options/UnionOptions.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>

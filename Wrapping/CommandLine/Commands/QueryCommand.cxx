@@ -6,7 +6,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
-#include "Stages/UnionOptions.h"
+#include "Options/UnionOptions.h"
 #include "Text/NumberTable.h"
 
 #include <vtkDoubleArray.h>

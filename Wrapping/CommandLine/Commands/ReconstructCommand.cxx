@@ -63,6 +63,11 @@ vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Setti
 {
   if (vtkSparseModelReader::CanReadFile(settings.scene))
   {
+    if (settings.stereo.NeedsMasks())
+    {
+      throw Error("--mask-is-free is for a scene.json that names masks, and " + settings.scene +
+        " is a structure-from-motion model.");
+    }
     const auto features = settings.sparse.Run(session, settings.scene);
     return settings.densify.IsWanted()
       ? settings.densify.Run(session, settings.scene, features, settings.stereo)

@@ -3,6 +3,7 @@
 
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Files/PathChecks.h"
 #include "Output/NewFolder.h"
@@ -23,11 +24,14 @@
 #include <vtkPhotographReader.h>
 #include <vtkSparseModelReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <utility>
 
 namespace freespace
 {
@@ -44,6 +48,7 @@ struct Settings
   std::string scene;
   std::string folder;
   std::string truth;
+  std::string images;
   int viewerTriangles = 80000;
   StageCache stages;
 };
@@ -72,9 +77,11 @@ struct Surroundings
 
 void AddOptions(CLI::App& command, Settings& settings)
 {
-  command.add_option("scene", settings.scene, "The scene.json")
+  command
+    .add_option("scene", settings.scene,
+      "A scene.json, or a structure-from-motion model whose images are there")
     ->required()
-    ->type_name("SCENE.json");
+    ->type_name("SCENE.json|MODEL");
   command
     .add_option(
       "-o,--output", settings.folder, "The folder for the page, index.html, and all results")
@@ -92,19 +99,53 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->check(CLI::Range(1000, 400000))
     ->capture_default_str()
     ->group("Page");
+  command
+    .add_option("--images", settings.images,
+      "The folder of a model's images; default: that of --densify, or where the model has them")
+    ->check(CLI::ExistingDirectory)
+    ->type_name("IMAGES")
+    ->group("Page");
   settings.stages.AddOptions(command);
 }
 
-Scene ReadSceneForReport(const std::string& file)
+bool IsModel(const Settings& settings)
 {
-  if (vtkSparseModelReader::CanReadFile(file))
+  return vtkSparseModelReader::CanReadFile(settings.scene);
+}
+
+// Of a model, with the images that are asked for. Throws Error where none of them is there.
+Scene ReadSceneForReport(const Settings& settings)
+{
+  Scene scene = ReadScene(settings.scene);
+  if (!IsModel(settings))
   {
-    throw Error(file +
-      " is a camera model without images: write a scene.json with its "
-      "\"model\" and \"images\", and give features of 'freespace sparse' by "
-      "--features.");
+    if (!settings.images.empty() || !settings.stages.DensifyFolder().empty())
+    {
+      throw Error("--images and --densify are for a structure-from-motion model, and " +
+        settings.scene + " is none.");
+    }
+    return scene;
   }
-  return ReadScene(file);
+  const std::string& asked =
+    settings.images.empty() ? settings.stages.DensifyFolder() : settings.images;
+  scene.images = fs::absolute(asked.empty() ? scene.ImagesFolder() : asked).string();
+  const std::vector<CalibratedImage> images = ReadSceneImages(ReadScene(settings.scene));
+  const bool areThere = std::any_of(images.begin(), images.end(),
+    [&scene](const CalibratedImage& image) { return IsThere(scene.ImagePath(image.file)); });
+  if (!areThere)
+  {
+    throw Error("A report shows the images of " + settings.scene + ", and none of them is in " +
+      scene.images + ": --images names their folder.");
+  }
+  return scene;
+}
+
+// The scene of a model becomes a file of the report, for its pictures and for its commands.
+Scene WriteSceneOfModel(Scene scene, const std::string& folder)
+{
+  scene.file = (fs::path(folder) / "scene.json").string();
+  WriteScene(scene, scene.file);
+  return scene;
 }
 
 // The images of a cluster, its reference first.
@@ -153,7 +194,7 @@ Surroundings LookAround(Session& session, const Scene& scene, vtkMultiBlockDataS
   reader->SetFileName(scene.file);
   session.Run(reader, "photographs");
   around.photographs = reader->GetOutput();
-  around.views = ViewsFromBlocks(features);
+  around.views = ViewsFromBlocks(WithoutSilhouettes(features));
   for (const View& view : around.views)
   {
     around.features.insert(around.features.end(), view.points.begin(), view.points.end());
@@ -203,7 +244,7 @@ void AddModel(
 void AddFigures(Session& session, const Settings& settings, const Surroundings& around,
   const std::string& figures, Report& report)
 {
-  vtkMultiBlockDataSet* features = settings.stages.Features();
+  const auto features = WithoutSilhouettes(settings.stages.Features());
   report.views = FeatureFigures(
     session, around.scene, features, (fs::path(figures) / "views").string(), mostViewsShown);
   report.viewsCaption = "Each view's image, and over it the features that were found: edges "
@@ -272,28 +313,39 @@ std::vector<ReportCommand> Commands(const Settings& settings, const CLI::App& co
     commands.push_back({ "The surface alone, all stages in one:",
       Line({ "freespace", "reconstruct", scene, "-o", mesh }, stageOptions) });
   }
-  const std::string stages = settings.stages.StageCommands(scene, folder);
+  const std::string stages = settings.stages.StageCommands(scene, IsModel(settings), folder);
   if (!stages.empty())
   {
     commands.push_back({ "The same, a stage at a time:", stages });
   }
+  const std::string pictured =
+    IsModel(settings) ? (fs::path(folder) / "scene.json").string() : scene;
   commands.push_back({ "A model for other programs, and pictures all around it:",
-    Line({ "freespace", "texture", mesh, "--scene", scene, "-o",
+    Line({ "freespace", "texture", mesh, "--scene", pictured, "-o",
            (fs::path(folder) / "model.glb").string() },
       {}) +
       "\n" +
-      Line({ "freespace", "view", scene, "--mesh", mesh, "--turntable", "36", "-o",
+      Line({ "freespace", "view", pictured, "--mesh", mesh, "--turntable", "36", "-o",
              (fs::path(folder) / "turntable").string() },
         {}) });
   return commands;
 }
 
-// The name of a scene: of its file, or of its folder if the file is called scene.json.
+// The name of a scene: of its file or model, or of the folder above, where that is called as all are: scene.json,
+// sparse/0.
 std::string TitleOf(const std::string& scene)
 {
-  const fs::path path = fs::absolute(scene).lexically_normal();
-  const std::string stem = path.stem().string();
-  return stem == "scene" && path.has_parent_path() ? path.parent_path().filename().string() : stem;
+  fs::path path = fs::absolute(scene).lexically_normal();
+  const auto saysNothing = [](const std::string& name)
+  {
+    return name.empty() || name == "scene" || name == "sparse" ||
+      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); });
+  };
+  while (saysNothing(path.stem().string()) && path.has_relative_path())
+  {
+    path = path.parent_path();
+  }
+  return path.stem().string();
 }
 
 void AddNumbers(const Settings& settings, const Surroundings& around, Report& report)
@@ -301,7 +353,7 @@ void AddNumbers(const Settings& settings, const Surroundings& around, Report& re
   const StageCache& stages = settings.stages;
   const long long triangles = stages.Surface()->GetNumberOfPolys();
   const long long inserted = InsertedFeatures(stages.Maps());
-  const long long features = stages.Features()->GetNumberOfPoints();
+  const long long features = WithoutSilhouettes(stages.Features())->GetNumberOfPoints();
   std::size_t cameras = 0;
   for (const CameraGroup& group : around.groups)
   {
@@ -316,7 +368,14 @@ void AddNumbers(const Settings& settings, const Surroundings& around, Report& re
     { std::to_string(around.views.size()), "views" }, { FormatCount(features), "features" },
     { FormatCount(inserted), "brought in by the constraint" },
     { FormatCount(triangles), "triangles" } };
-  report.numbers = { ViewTable(stages.Features(), stages.Maps()), SurfaceTable(stages.Surface()) };
+  report.numbers = { ViewTable(
+                       WithoutSilhouettes(stages.Features()), WithoutSilhouettes(stages.Maps())),
+    SurfaceTable(stages.Surface()) };
+  const ReportTable choices = ChoiceTable(stages.Times());
+  if (!choices.rows.empty())
+  {
+    report.numbers.push_back(choices);
+  }
 }
 
 void AddTimes(const Settings& settings, double modelSeconds, double figureSeconds, Report& report)
@@ -333,8 +392,8 @@ void AddTimes(const Settings& settings, double modelSeconds, double figureSecond
   {
     report.facts.push_back({ FormatSeconds(reconstruction), "to reconstruct" });
   }
-  times.push_back({ "this page's model", modelSeconds, "in this run" });
-  times.push_back({ "this page's figures", figureSeconds, "in this run" });
+  times.push_back({ "this page's model", modelSeconds, "in this run", {} });
+  times.push_back({ "this page's figures", figureSeconds, "in this run", {} });
   report.numbers.push_back(TimeTable(times));
 }
 
@@ -355,14 +414,18 @@ double SecondsOf(const Work& work)
 
 void MakeReport(Session& session, Settings& settings, const CLI::App& command)
 {
-  const Scene scene = ReadSceneForReport(settings.scene);
+  Scene scene = ReadSceneForReport(settings);
   const std::string file = (fs::path(settings.folder) / "index.html").string();
   const std::string figures = (fs::path(settings.folder) / "figures").string();
   settings.stages.ReadGiven(session);
   const auto truth = ReadTruth(session, settings);
   const NewFolder folder(settings.folder);
   CheckOutputFolder(file);
-  settings.stages.Run(session, scene, settings.folder);
+  settings.stages.Run(session, scene, IsModel(settings) ? settings.scene : "", settings.folder);
+  if (IsModel(settings))
+  {
+    scene = WriteSceneOfModel(std::move(scene), settings.folder);
+  }
   const Surroundings around = LookAround(session, scene, settings.stages.Features());
   const NewFolder figuresFolder(figures);
   Report report;

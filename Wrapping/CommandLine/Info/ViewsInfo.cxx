@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
 #include "Info/FileInfo.h"
 #include "Info/SummaryInfo.h"
@@ -57,8 +58,9 @@ std::vector<double> ValuesOf(vtkPolyData* block, const char* name)
 
 }
 
-Json ViewsInfo(vtkMultiBlockDataSet* views)
+Json ViewsInfo(vtkMultiBlockDataSet* blocks)
 {
+  const auto views = WithoutSilhouettes(blocks);
   // Scalar arrays of the features that measure their reliability.
   const char* const qualities[] = { "MatchingCost", "DisparityDeviation", "ReprojectionError" };
   std::vector<double> depths, errors, values[3];
@@ -87,6 +89,10 @@ Json ViewsInfo(vtkMultiBlockDataSet* views)
   Json info;
   info["kind"] = triangles > 0 ? "disparity maps" : "features";
   info["views"] = views->GetNumberOfBlocks();
+  if (const unsigned int silhouettes = NumberOfSilhouettes(blocks))
+  {
+    info["silhouettes"] = silhouettes;
+  }
   info["features"] = features;
   info["triangles"] = triangles;
   info["depths"] = SpreadInfo(SpreadOf(depths));

@@ -86,6 +86,21 @@ ReportTable ViewTable(vtkMultiBlockDataSet* features, vtkMultiBlockDataSet* maps
   return table;
 }
 
+ReportTable ChoiceTable(const std::vector<StageTime>& stages)
+{
+  ReportTable table;
+  table.caption = "Chosen automatically";
+  table.columns = { "", "" };
+  for (const StageTime& stage : stages)
+  {
+    for (const auto& [what, choice] : stage.choices)
+    {
+      table.rows.push_back({ what, choice });
+    }
+  }
+  return table;
+}
+
 ReportTable SurfaceTable(vtkPolyData* surface)
 {
   const double* box = surface->GetBounds();

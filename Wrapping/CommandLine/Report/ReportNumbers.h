@@ -14,6 +14,9 @@ namespace freespace
 /// Each view's features, what the minimum disparity constraint brought in, and triangles.
 ReportTable ViewTable(vtkMultiBlockDataSet* features, vtkMultiBlockDataSet* maps);
 
+/// What the stages chose by themselves; without rows where they chose nothing.
+ReportTable ChoiceTable(const std::vector<StageTime>& stages);
+
 /// The surface: vertices, triangles, size.
 ReportTable SurfaceTable(vtkPolyData* surface);
 

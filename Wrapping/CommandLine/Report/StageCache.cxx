@@ -22,12 +22,17 @@ namespace
 namespace fs = std::filesystem;
 
 const char* const stereoGroup = "Stereo";
+const char* const modelGroup = "Structure-from-motion model";
 const char* const mapsGroup = "Disparity maps";
 const char* const surfaceGroup = "Surface";
 
-// What the features depend on: the scene, its cameras and its images.
-std::vector<std::string> SourcesOf(const Scene& scene)
+// What the features depend on: the scene, its cameras and its images. That of a model is written for the report.
+std::vector<std::string> SourcesOf(const Scene& scene, const std::string& model)
 {
+  if (!model.empty())
+  {
+    return { model };
+  }
   std::vector<std::string> sources = { scene.file, scene.ModelFolder() };
   for (const Cluster& cluster : scene.clusters)
   {
@@ -62,7 +67,7 @@ StageTime TakeUpOrMake(Session& session, StageRecord& record, Step step, bool fr
 {
   if (step.isGiven)
   {
-    return { step.name, 0, "given" };
+    return { step.name, 0, "given", {} };
   }
   step.options.insert(step.options.end(), step.inputs.begin(), step.inputs.end());
   step.options.push_back("freespace " FREESPACE_VERSION);
@@ -70,13 +75,16 @@ StageTime TakeUpOrMake(Session& session, StageRecord& record, Step step, bool fr
   {
     session.Log("take up " + step.output);
     read();
-    return { step.name, record.Seconds(step.name), "in an earlier run" };
+    return { step.name, record.Seconds(step.name), "in an earlier run",
+      record.ChoicesOf(step.name) };
   }
   const auto begin = std::chrono::steady_clock::now();
+  session.TakeChoices(); // of earlier stages
   make();
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  record.Set(step.name, step.options, taken.count());
-  return { step.name, taken.count(), "in this run" };
+  const Choices choices = session.TakeChoices();
+  record.Set(step.name, step.options, taken.count(), 0, choices);
+  return { step.name, taken.count(), "in this run", choices };
 }
 
 std::string InFolder(const std::string& given, const std::string& folder, const char* name)
@@ -100,6 +108,8 @@ void StageCache::AddOptions(CLI::App& command)
     .add_flag("--fresh", this->Fresh, "Make every stage anew, whatever an earlier run left in DIR")
     ->group("Take up");
   this->Stereo.AddOptions(command);
+  this->Sparse.AddOptions(command);
+  this->Densify.AddOptions(command);
   this->Triangulate.AddOptions(command);
   this->Contour.AddOptions(command);
 }
@@ -135,7 +145,32 @@ void StageCache::ReadGiven(Session& session)
   }
 }
 
-void StageCache::Run(Session& session, const Scene& scene, const std::string& folder)
+vtkSmartPointer<vtkMultiBlockDataSet> StageCache::FindFeatures(
+  Session& session, const Scene& scene, const std::string& model) const
+{
+  if (model.empty())
+  {
+    return this->Stereo.Run(session, scene.file);
+  }
+  const auto points = this->Sparse.Run(session, model);
+  return this->Densify.IsWanted() ? this->Densify.Run(session, model, points, this->Stereo)
+                                  : points;
+}
+
+// Those of the stages that find features, as words.
+std::vector<std::string> StageCache::FeatureOptions(bool isModel) const
+{
+  std::vector<std::string> words = GivenOptions(*this->Command, stereoGroup);
+  if (isModel)
+  {
+    const std::vector<std::string> more = GivenOptions(*this->Command, modelGroup);
+    words.insert(words.end(), more.begin(), more.end());
+  }
+  return words;
+}
+
+void StageCache::Run(
+  Session& session, const Scene& scene, const std::string& model, const std::string& folder)
 {
   StageRecord record((fs::path(folder) / "stages.json").string());
   const std::string features = this->FeaturesFile(folder);
@@ -143,12 +178,12 @@ void StageCache::Run(Session& session, const Scene& scene, const std::string& fo
   const std::string surface = this->SurfaceFile(folder);
   this->Taken.push_back(TakeUpOrMake(
     session, record,
-    { "features", GivenOptions(*this->Command, stereoGroup), features, SourcesOf(scene),
+    { "features", this->FeatureOptions(!model.empty()), features, SourcesOf(scene, model),
       !this->GivenFeatures.empty() },
     this->Fresh, [&]() { this->FoundFeatures = ReadViews(session, features); },
     [&]()
     {
-      this->FoundFeatures = this->Stereo.Run(session, scene.file);
+      this->FoundFeatures = this->FindFeatures(session, scene, model);
       WriteViews(session, this->FoundFeatures, features);
     }));
   this->Taken.push_back(TakeUpOrMake(
@@ -173,9 +208,14 @@ void StageCache::Run(Session& session, const Scene& scene, const std::string& fo
     }));
 }
 
-std::string StageCache::StageCommands(const std::string& scene, const std::string& folder) const
+std::string StageCache::StageCommands(
+  const std::string& source, bool isModel, const std::string& folder) const
 {
   std::string lines;
+  if (isModel && this->Densify.IsWanted())
+  {
+    return lines;
+  }
   const auto add = [&](const std::string& given, std::vector<std::string> words, const char* group)
   {
     if (given.empty())
@@ -187,7 +227,8 @@ std::string StageCache::StageCommands(const std::string& scene, const std::strin
   };
   const std::string features = this->FeaturesFile(folder);
   const std::string maps = this->MapsFile(folder);
-  add(this->GivenFeatures, { "freespace", "stereo", scene, "-o", features }, stereoGroup);
+  add(this->GivenFeatures, { "freespace", isModel ? "sparse" : "stereo", source, "-o", features },
+    isModel ? modelGroup : stereoGroup);
   add(this->GivenMaps, { "freespace", "triangulate", features, "-o", maps }, mapsGroup);
   add(this->GivenSurface, { "freespace", "contour", maps, "-o", this->SurfaceFile(folder) },
     surfaceGroup);
@@ -197,7 +238,7 @@ std::string StageCache::StageCommands(const std::string& scene, const std::strin
 std::vector<std::string> StageCache::Options() const
 {
   std::vector<std::string> words;
-  for (const char* group : { stereoGroup, mapsGroup, surfaceGroup })
+  for (const char* group : { stereoGroup, modelGroup, mapsGroup, surfaceGroup })
   {
     const std::vector<std::string> given = GivenOptions(*this->Command, group);
     words.insert(words.end(), given.begin(), given.end());

@@ -2,7 +2,10 @@
 #ifndef freespace_StageCache_h
 #define freespace_StageCache_h
 
+#include "Session/Choices.h"
 #include "Stages/ContourStage.h"
+#include "Stages/DensifyStage.h"
+#include "Stages/SparseStage.h"
 #include "Stages/StereoStage.h"
 #include "Stages/TriangulateStage.h"
 
@@ -23,6 +26,7 @@ struct StageTime
   std::string name;
   double seconds = 0;
   std::string when; ///< "in this run", or "in an earlier run", or "given" and of unknown time
+  Choices choices;  ///< what the stage chose by itself
 };
 
 /// Features, disparity maps and surface of a scene in a folder, computed or reused.
@@ -37,8 +41,13 @@ public:
   void ReadGiven(Session& session);
 
   /// Computes what is neither given nor in the folder, is older than its inputs, or was made with other
-  /// options or by another version. Throws Error when a stage fails.
-  void Run(Session& session, const Scene& scene, const std::string& folder);
+  /// options or by another version. The features are the points of a model, if there is one, densified where asked
+  /// for; else those of stereo on the scene. Throws Error when a stage fails.
+  void Run(
+    Session& session, const Scene& scene, const std::string& model, const std::string& folder);
+
+  /// The folder of --densify; empty without it.
+  const std::string& DensifyFolder() const { return this->Densify.Folder(); }
 
   vtkMultiBlockDataSet* Features() const { return this->FoundFeatures; }
   vtkMultiBlockDataSet* Maps() const { return this->FoundMaps; }
@@ -50,8 +59,10 @@ public:
   std::string MapsFile(const std::string& folder) const;
   std::string SurfaceFile(const std::string& folder) const;
 
-  /// The commands that make them, a stage at a time, for a shell.
-  std::string StageCommands(const std::string& scene, const std::string& folder) const;
+  /// The commands that make them, a stage at a time, for a shell; empty where a model is densified, which
+  /// no single stage does.
+  std::string StageCommands(
+    const std::string& source, bool isModel, const std::string& folder) const;
 
   /// The options of all stages that were given, as words.
   std::vector<std::string> Options() const;
@@ -60,8 +71,14 @@ public:
   bool AreAllMade() const;
 
 private:
+  vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(
+    Session& session, const Scene& scene, const std::string& model) const;
+  std::vector<std::string> FeatureOptions(bool isModel) const;
+
   CLI::App* Command = nullptr;
   StereoStage Stereo;
+  SparseStage Sparse;
+  DensifyStage Densify;
   TriangulateStage Triangulate;
   ContourStage Contour;
   std::string GivenFeatures;

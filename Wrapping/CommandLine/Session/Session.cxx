@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 namespace freespace
 {
@@ -203,6 +204,28 @@ void Session::SumUp() const
   {
     this->Log("  " + warning);
   }
+}
+
+void Session::NoteChoice(
+  const std::string& what, const std::string& choice, const std::string& option)
+{
+  this->Chosen.emplace_back(option.empty() ? what : what + " (" + option + ")", choice);
+}
+
+void Session::LogChoice(
+  const std::string& what, const std::string& choice, const std::string& option)
+{
+  this->Log(what + ": " + choice);
+  this->NoteChoice(what, choice, option);
+}
+
+Choices Session::TakeChoices()
+{
+  for (; this->WarningsTaken < this->Warnings.size(); ++this->WarningsTaken)
+  {
+    this->NoteChoice("warning", this->Warnings[this->WarningsTaken]);
+  }
+  return std::exchange(this->Chosen, {});
 }
 
 void Session::Log(const std::string& line) const

@@ -2,6 +2,8 @@
 #ifndef freespace_Session_h
 #define freespace_Session_h
 
+#include "Session/Choices.h"
+
 #include <CLI/CLI.hpp>
 
 #include <functional>
@@ -61,6 +63,17 @@ public:
   /// A line of the log, not shown when quiet.
   void Log(const std::string& line) const;
 
+  /// What was chosen automatically, and the option that chooses otherwise, if there is one: for the report.
+  void NoteChoice(
+    const std::string& what, const std::string& choice, const std::string& option = {});
+
+  /// The same, with a line "what: choice" of the log.
+  void LogChoice(
+    const std::string& what, const std::string& choice, const std::string& option = {});
+
+  /// The choices since the last call, and the warnings of the run, of which each says what was left out.
+  Choices TakeChoices();
+
 private:
   void Begin();
   void TellWarning(const std::string& sentence);
@@ -70,6 +83,8 @@ private:
   bool Quiet = false;
   bool Strict = false;
   std::vector<std::string> Warnings; // of the run, each once
+  std::size_t WarningsTaken = 0;     // of these, by TakeChoices
+  Choices Chosen;
   int Threads = 0;
   Sharing ActionSharing = Sharing::FirstProcess;
   std::function<void()> Action;

@@ -17,6 +17,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkSimplifySurfaceFilter.h>
 
 #include <algorithm>
@@ -78,6 +79,10 @@ void ContourStage::AddOptions(CLI::App& command)
     ->capture_default_str()
     ->group("Surface");
   command
+    .add_flag(
+      "--normals", this->Normals, "Give the vertices normals: .ply, .obj and .vtp have them")
+    ->group("Surface");
+  command
     .add_flag("--observed", this->Observed,
       "Keep only observed triangles: an open surface without the hull and the silhouette walls, "
       "except where features are close")
@@ -129,10 +134,27 @@ void ContourStage::Choose(Session& session, vtkBisectionContourFilter* contour) 
   std::ostringstream side;
   side.precision(3);
   side << longest / cells;
+  const std::string lattice = std::to_string(cells) + " cells of " + side.str();
   const int views = phi->FindMinimumViews();
-  session.Log(RegionOption::Found(phi) + "; " + std::to_string(cells) + " cells of " + side.str() +
-    (views == 1 ? "; 1 view" : "; " + std::to_string(views) + " views") +
-    (phi->GetMinimumViews() < 0 ? ", or no fewer than contradict them," : "") + " to make free");
+  const std::string votes = std::to_string(views) + (views == 1 ? " view" : " views") +
+    (phi->GetMinimumViews() < 0 && views > 1 ? ", or no fewer than contradict them," : "") +
+    " to make free";
+  const std::string region = RegionOption::Found(phi);
+  session.Log(region + "; " + lattice + "; " + votes);
+  session.NoteChoice("region", region, "--region");
+  session.NoteChoice("lattice", lattice, "--cells");
+  session.NoteChoice("free space", votes, "--min-views");
+}
+
+void ContourStage::TellCrumbs(Session& session, vtkIdType triangles)
+{
+  if (triangles > 0)
+  {
+    session.LogChoice("crumbs",
+      std::to_string(triangles) +
+        " triangles of components without features are left out; --crumbs keep keeps them",
+      "--crumbs");
+  }
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
@@ -140,6 +162,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
 {
   contour->SetObservedOnly(this->Observed && pieces == 1);
   session.Run(contour, "contour", piece, pieces);
+  TellCrumbs(session, contour->GetCrumbTriangles());
   return contour->GetOutput();
 }
 
@@ -149,7 +172,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
   const double worst = this->Cells == "auto" ? 0 : std::pow(std::stod(this->Cells), 3) * WorstCell;
-  if (limit == 0 || worst <= limit || this->Observed || this->Simplify > 0 ||
+  if (limit == 0 || worst <= limit || this->Observed || this->Normals || this->Simplify > 0 ||
     LowerCaseExtension(fileName) != ".ply")
   {
     return false;
@@ -193,6 +216,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(Session& session, vtkMultiBlockD
       append->AddInputData(piece);
     }
     session.Run(append, "join");
+    TellCrumbs(session, append->GetCrumbTriangles());
     surface = append->GetOutput();
   }
   session.Log("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
@@ -214,6 +238,15 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(Session& session, vtkMultiBlockD
     surface = simplify->GetOutput();
     session.Log("simplify: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
       std::to_string(surface->GetNumberOfCells()) + " triangles");
+  }
+  if (this->Normals)
+  {
+    vtkNew<vtkPolyDataNormals> normals;
+    normals->SetInputData(surface);
+    normals->SplittingOff();
+    normals->ConsistencyOff();
+    session.Run(normals, "normals");
+    surface = normals->GetOutput();
   }
   return surface;
 }

@@ -2,7 +2,7 @@
 #ifndef freespace_ContourStage_h
 #define freespace_ContourStage_h
 
-#include "Stages/UnionOptions.h"
+#include "Options/UnionOptions.h"
 
 #include <CLI/CLI.hpp>
 
@@ -52,6 +52,8 @@ public:
     vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface);
 
 private:
+  static void TellCrumbs(Session& session, vtkIdType triangles);
+
   UnionOptions Union;
   std::string Cells = "auto";
   double MemoryLimit = -1; // MiB; 0: none; below 0: a share of what the machine has
@@ -59,6 +61,7 @@ private:
   bool NotFitted = false;
   double Simplify = 0.0;
   std::string Crumbs = "drop";
+  bool Normals = false;
   bool Observed = false;
 };
 

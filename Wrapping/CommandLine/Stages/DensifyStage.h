@@ -24,6 +24,7 @@ class DensifyStage
 public:
   void AddOptions(CLI::App& command);
   bool IsWanted() const { return !this->Images.empty(); }
+  const std::string& Folder() const { return this->Images; }
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& model,
     vtkMultiBlockDataSet* sparse, const StereoStage& stereo) const;
 

@@ -3,8 +3,8 @@
 #define freespace_SparseStage_h
 
 #include "SparseModel/SparseViews.h"
-#include "Stages/SupportOption.h"
-#include "Stages/WrongImagesOption.h"
+#include "Options/SupportOption.h"
+#include "Options/WrongImagesOption.h"
 
 #include <CLI/CLI.hpp>
 

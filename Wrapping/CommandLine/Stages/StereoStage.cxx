@@ -2,6 +2,7 @@
 #include "Stages/StereoStage.h"
 
 #include "Common/Error.h"
+#include "Data/SilhouetteBlocks.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
 
@@ -44,9 +45,16 @@ void StereoStage::AddOptions(CLI::App& command)
     ->default_str("auto")
     ->group("Stereo");
   this->WrongImages.AddTo(command, "Stereo");
+  this->Thresholds.AddTo(command, "Stereo");
   command
     .add_flag("--no-patches", this->NoPatches,
       "Features are edges alone, as in the paper: no patches of the images where edges leave gaps")
+    ->group("Stereo");
+  command
+    .add_flag("--mask-is-free", this->MaskIsFree,
+      "The rays through what the masks of a scene leave out are free space: the surface lies "
+      "within the silhouettes, "
+      "as for a turntable")
     ->group("Stereo");
   this->Choice.AddOptions(command, "Stereo");
 }
@@ -65,6 +73,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetFileName(scene);
   stereo->SetMinimumDepth(this->MinimumDepth);
   stereo->SetMaximumDepth(this->MaximumDepth);
+  this->Thresholds.SetUp(stereo);
   stereo->SetPatches(!this->NoPatches);
   using Reader = vtkEdgeStereoReader;
   stereo->SetEveryImage(this->EveryImage == "auto" ? Reader::IN_SMALL_SCENES
@@ -73,6 +82,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   stereo->SetRefineCameras(this->RefineCameras == "auto" ? Reader::REFINE_SMALL_SCENES
       : this->RefineCameras == "off"                     ? Reader::REFINE_NEVER
                                                          : Reader::REFINE_ALWAYS);
+  stereo->SetMaskIsFree(this->MaskIsFree);
   stereo->SetCheckImages(this->WrongImages.AreDropped());
   vtkNew<vtkClusterProposal> clusters;
   this->Choice.Apply(clusters);
@@ -80,15 +90,23 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   session.Run(stereo, "stereo");
   if (!stereo->GetImageSummary().empty())
   {
-    session.Log("images: " + stereo->GetImageSummary());
+    session.LogChoice("images", stereo->GetImageSummary());
   }
   if (!stereo->GetClusterSummary().empty())
   {
-    session.Log("clusters: " + stereo->GetClusterSummary());
+    session.LogChoice("clusters", stereo->GetClusterSummary(), "--coverage");
   }
+  session.LogChoice("cameras", stereo->GetCameraSummary(), "--refine-cameras");
+  session.LogChoice("views", stereo->GetViewSummary(), "--every-image");
   vtkSmartPointer<vtkMultiBlockDataSet> features = stereo->GetOutput();
-  session.Log("stereo: " + std::to_string(features->GetNumberOfBlocks()) + " views, " +
-    std::to_string(features->GetNumberOfPoints()) + " features");
+  const auto views = WithoutSilhouettes(features);
+  session.Log("stereo: " + std::to_string(views->GetNumberOfBlocks()) + " views, " +
+    std::to_string(views->GetNumberOfPoints()) + " features");
+  if (this->MaskIsFree)
+  {
+    session.Log("masks: " + std::to_string(NumberOfSilhouettes(features)) +
+      " silhouettes outside of which is free space");
+  }
   return features;
 }
 

@@ -2,8 +2,9 @@
 #ifndef freespace_StereoStage_h
 #define freespace_StereoStage_h
 
-#include "Stages/ClusterChoice.h"
-#include "Stages/WrongImagesOption.h"
+#include "Options/ClusterChoice.h"
+#include "Options/EdgeThresholds.h"
+#include "Options/WrongImagesOption.h"
 
 #include <CLI/CLI.hpp>
 
@@ -28,14 +29,17 @@ public:
   vtkSmartPointer<vtkMultiBlockDataSet> Run(Session& session, const std::string& scene) const;
 
   const ClusterChoice& Clusters() const { return this->Choice; }
+  bool NeedsMasks() const { return this->MaskIsFree; }
 
 private:
   double MinimumDepth = 0;
   double MaximumDepth = 0;
   std::string EveryImage = "auto";    // empty: on
   std::string RefineCameras = "auto"; // empty: on
+  EdgeThresholds Thresholds;
   WrongImagesOption WrongImages;
   bool NoPatches = false;
+  bool MaskIsFree = false;
   ClusterChoice Choice;
 };
 

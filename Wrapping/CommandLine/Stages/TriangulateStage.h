@@ -3,7 +3,7 @@
 #define freespace_TriangulateStage_h
 
 #include "Disparity/Maps/DisparityMaps.h"
-#include "Stages/SupportOption.h"
+#include "Options/SupportOption.h"
 
 #include <CLI/CLI.hpp>
 

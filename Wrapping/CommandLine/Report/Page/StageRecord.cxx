@@ -44,7 +44,8 @@ StageRecord::StageRecord(const std::string& file)
     for (const auto& [name, stage] : record.at("stages").items())
     {
       this->Stages[name] = { stage.at("options").get<std::vector<std::string>>(),
-        stage.at("seconds").get<double>(), stage.value("mebibytes", 0.0) };
+        stage.at("seconds").get<double>(), stage.value("mebibytes", 0.0),
+        stage.value("choices", Choices()) };
     }
   }
   catch (const nlohmann::json::exception&)
@@ -78,10 +79,16 @@ double StageRecord::Mebibytes(const std::string& stage) const
   return found == this->Stages.end() ? 0 : found->second.mebibytes;
 }
 
-void StageRecord::Set(const std::string& stage, const std::vector<std::string>& options,
-  double seconds, double mebibytes)
+Choices StageRecord::ChoicesOf(const std::string& stage) const
 {
-  this->Stages[stage] = { options, seconds, mebibytes };
+  const auto found = this->Stages.find(stage);
+  return found == this->Stages.end() ? Choices() : found->second.choices;
+}
+
+void StageRecord::Set(const std::string& stage, const std::vector<std::string>& options,
+  double seconds, double mebibytes, const Choices& choices)
+{
+  this->Stages[stage] = { options, seconds, mebibytes, choices };
   this->Write();
 }
 
@@ -94,6 +101,10 @@ void StageRecord::Write() const
     if (stage.mebibytes > 0)
     {
       record["stages"][name]["mebibytes"] = stage.mebibytes;
+    }
+    if (!stage.choices.empty())
+    {
+      record["stages"][name]["choices"] = stage.choices;
     }
   }
   AtomicOutput target(this->File);

@@ -2,6 +2,8 @@
 #ifndef freespace_StageRecord_h
 #define freespace_StageRecord_h
 
+#include "Session/Choices.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,7 +13,7 @@ namespace freespace
 {
 
 /// A record of how the files of a folder were made, so that a later run can reuse them: for each stage its
-/// options and its time. It is a JSON file in the folder.
+/// options, its time and what it chose by itself. It is a JSON file in the folder.
 class StageRecord
 {
 public:
@@ -29,9 +31,12 @@ public:
   /// The most memory that it had then, MiB; 0 where that is not known.
   double Mebibytes(const std::string& stage) const;
 
+  /// What the stage chose when it was made.
+  Choices ChoicesOf(const std::string& stage) const;
+
   /// Notes that a stage was made, and writes the record. Throws Error when that fails.
   void Set(const std::string& stage, const std::vector<std::string>& options, double seconds,
-    double mebibytes = 0);
+    double mebibytes = 0, const Choices& choices = {});
 
 private:
   struct Stage
@@ -39,6 +44,7 @@ private:
     std::vector<std::string> options;
     double seconds = 0;
     double mebibytes = 0;
+    Choices choices;
   };
 
   void Write() const;

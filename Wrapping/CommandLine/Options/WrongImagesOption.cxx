@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stages/WrongImagesOption.h"
+#include "Options/WrongImagesOption.h"
 
 namespace freespace
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stages/ClusterChoice.h"
+#include "Options/ClusterChoice.h"
 
 #include "Session/NumberValidators.h"
 

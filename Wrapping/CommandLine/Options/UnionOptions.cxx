@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stages/UnionOptions.h"
+#include "Options/UnionOptions.h"
 
 #include "Session/NumberValidators.h"
-
-#include "Freespace/FreespaceUnion.h"
 
 namespace freespace
 {
@@ -23,6 +21,13 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
       "contradict them, which have it closely behind their own surface; 1 in the paper")
     ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
     ->type_name("auto|INT")
+    ->capture_default_str()
+    ->group(group);
+  command
+    .add_option("--contradiction", this->Contradiction,
+      "How far behind its surface a view contradicts others (--min-views auto), in distances of "
+      "its features")
+    ->check(Positive())
     ->capture_default_str()
     ->group(group);
 }

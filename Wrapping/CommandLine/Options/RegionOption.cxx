@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Stages/RegionOption.h"
+#include "Options/RegionOption.h"
 
 #include <vtkFreespaceUnion.h>
 

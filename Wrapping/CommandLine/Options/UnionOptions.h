@@ -2,7 +2,8 @@
 #ifndef freespace_UnionOptions_h
 #define freespace_UnionOptions_h
 
-#include "Stages/RegionOption.h"
+#include "Freespace/FreespaceUnion.h"
+#include "Options/RegionOption.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,7 @@ public:
     this->Region.SetUp(target);
     target->SetHullMargin(this->MarginFor(cells));
     target->SetMinimumViews(this->Views());
+    target->SetContradiction(this->Contradiction);
   }
 
 private:
@@ -35,6 +37,7 @@ private:
   RegionOption Region;
   double HullMargin = -1; // below 0: automatic
   std::string MinimumViews = "auto";
+  double Contradiction = FreespaceUnionOptions().contradiction;
 };
 
 }
