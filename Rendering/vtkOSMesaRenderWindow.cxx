@@ -17,6 +17,7 @@
 #include <GL/osmesa.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include <unistd.h>
@@ -40,6 +41,10 @@ struct CurrentContext
 CurrentContext GetCurrentContext()
 {
   CurrentContext current;
+  if (!freespace::DispatchesToOSMesa())
+  {
+    return current; // with a GLX context of Mesa's, OSMesa would take that for one of its own
+  }
   current.context = OSMesaGetCurrentContext();
   GLint format = 0;
   if (current.context &&
@@ -175,6 +180,10 @@ void vtkOSMesaRenderWindow::MakeCurrent()
     state.width = width;
     state.height = height;
   }
+  if (!this->IsCurrent())
+  {
+    freespace::LeaveGLX();
+  }
   if (!OSMesaMakeCurrent(state.context, state.pixels.data(), GL_UNSIGNED_BYTE, width, height))
   {
     vtkErrorMacro("libOSMesa cannot render to " << width << "x" << height << " pixels.");
@@ -199,6 +208,38 @@ void vtkOSMesaRenderWindow::ReleaseCurrent()
     OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
     freespace::StopDispatch();
   }
+}
+
+// What VTK does for a window of X between two calls of ours, makes its context current first, and fails while another
+// library's is.
+void vtkOSMesaRenderWindow::LeaveToX()
+{
+  const char* display = std::getenv("DISPLAY");
+  if (display && *display)
+  {
+    this->ReleaseCurrent();
+  }
+}
+
+void vtkOSMesaRenderWindow::Render()
+{
+  this->Superclass::Render();
+  this->LeaveToX();
+}
+
+int vtkOSMesaRenderWindow::ReadPixels(
+  const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
+{
+  const int result = this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right);
+  this->LeaveToX();
+  return result;
+}
+
+int vtkOSMesaRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
+{
+  const int result = this->Superclass::GetZbufferData(x1, y1, x2, y2, z);
+  this->LeaveToX();
+  return result;
 }
 
 void vtkOSMesaRenderWindow::PushContext()
@@ -233,6 +274,7 @@ void vtkOSMesaRenderWindow::PopContext()
 int vtkOSMesaRenderWindow::SupportsOpenGL()
 {
   this->Initialize();
+  this->LeaveToX();
   return this->Initialized ? 1 : 0;
 }
 

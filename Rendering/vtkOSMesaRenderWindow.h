@@ -8,7 +8,8 @@
  * creates it for vtkRenderWindow::New, and an interactor without a window system for
  * vtkRenderWindowInteractor::New, in C++ (with vtk_module_autoinit) and in Python (after the import of
  * freespace.vtkFreespaceRendering, before or after vtkRenderingOpenGL2). It can also be created by name,
- * with an X server as well. Each window has its own context; several windows can be used in turn, and each
+ * with an X server as well. The environment variable FREESPACE_WINDOW decides instead of the X server: `osmesa` for
+ * this class, `display` for VTK's own; vtkSurfacePicture uses this class unless it is `display`. Each window has its own context; several windows can be used in turn, and each
  * from one thread at a time.
  *
  * From release 9.4 VTK chooses such a window by itself, and this class does not exist.
@@ -69,6 +70,16 @@ public:
 
   ///@{
   /**
+   * Where there is an X server, the context is released afterwards: libGLX refuses to make a context of its own current
+   * in a thread that has another library's.
+   */
+  void Render() override;
+  int GetZbufferData(int x1, int y1, int x2, int y2, float* z) override;
+  using vtkGenericOpenGLRenderWindow::GetZbufferData;
+  ///@}
+
+  ///@{
+  /**
    * Whether a context can be created (it is created); it is never a direct one.
    */
   int SupportsOpenGL() override;
@@ -97,7 +108,12 @@ protected:
   vtkOSMesaRenderWindow();
   ~vtkOSMesaRenderWindow() override;
 
+  int ReadPixels(
+    const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right) override;
+
 private:
+  void LeaveToX();
+
   vtkOSMesaRenderWindow(const vtkOSMesaRenderWindow&) = delete;
   void operator=(const vtkOSMesaRenderWindow&) = delete;
 

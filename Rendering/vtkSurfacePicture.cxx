@@ -8,6 +8,7 @@
 #include "Data/PngBytes.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
+#include "OffScreenWindow.h"
 #include "Viewpoints/FramePoints.h"
 
 #include <vtkActor.h>
@@ -205,8 +206,7 @@ void vtkSurfacePicture::Stage::MakeWindow()
 {
   if (!this->window)
   {
-    this->window = vtkSmartPointer<vtkRenderWindow>::New();
-    this->window->SetOffScreenRendering(1);
+    this->window = freespace::NewOffScreenWindow();
     this->window->AddRenderer(this->renderer);
     this->renderer->AddActor(this->actor);
     this->renderer->AddActor(this->bar);

@@ -11,6 +11,8 @@
 #endif
 #include <GL/osmesa.h>
 
+#include <dlfcn.h>
+
 // libGLdispatch exports these for libGLX and libEGL; no package has the header.
 extern "C"
 {
@@ -77,6 +79,25 @@ thread_local __GLdispatchThreadStateRec threadState = { TagThatIsNotGLX,
 
 }
 
+// Through libGLX, which counts the uses. The library is there where a window of VTK's for X is.
+void LeaveGLX()
+{
+  void* library = dlopen("libGLX.so.0", RTLD_LAZY | RTLD_NOLOAD);
+  if (!library)
+  {
+    return;
+  }
+  using CurrentDisplay = void* (*)();
+  using MakeCurrent = int (*)(void* display, unsigned long drawable, void* context);
+  const auto display = reinterpret_cast<CurrentDisplay>(dlsym(library, "glXGetCurrentDisplay"));
+  const auto makeCurrent = reinterpret_cast<MakeCurrent>(dlsym(library, "glXMakeCurrent"));
+  if (void* current = display && makeCurrent ? display() : nullptr)
+  {
+    makeCurrent(current, 0, nullptr);
+  }
+  dlclose(library);
+}
+
 bool DispatchesToOSMesa()
 {
   return __glDispatchGetCurrentThreadState() == &threadState;
@@ -95,7 +116,7 @@ bool DispatchToOSMesa()
   }
   if (__glDispatchGetCurrentThreadState())
   {
-    __glDispatchLoseCurrent(); // a GLX or EGL context was current: it has to be made so again
+    __glDispatchLoseCurrent(); // an EGL context was current: it has to be made so again
   }
   return __glDispatchMakeCurrent(&threadState, vendor.table, vendor.id, nullptr) != 0;
 }

@@ -5,6 +5,10 @@
 namespace freespace
 {
 
+/// Ends the use of a GLX context in this thread. Before a context of OSMesa is made current: both of Mesa's libraries keep
+/// the current context in one place. It is made current again by whom it belongs to.
+void LeaveGLX();
+
 /// Sends this thread's calls of libGL's and libOpenGL's functions (glClear and so on) to libOSMesa.
 ///
 /// They are stubs of GLVND, which looks the function up in a table that belongs to the thread and

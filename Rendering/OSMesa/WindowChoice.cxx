@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <string>
 
 namespace freespace
 {
@@ -42,9 +43,19 @@ bool XServerAnswers()
 
 }
 
+WindowWish WantedWindow()
+{
+  const char* text = std::getenv("FREESPACE_WINDOW");
+  const std::string wish = text ? text : "";
+  return wish == "osmesa" ? WindowWish::OSMesa
+    : wish == "display"   ? WindowWish::Display
+                          : WindowWish::Automatic;
+}
+
 bool ChooseOSMesa()
 {
-  if (XServerAnswers())
+  const WindowWish wish = WantedWindow();
+  if (wish == WindowWish::Display || (wish == WindowWish::Automatic && XServerAnswers()))
   {
     return false;
   }
