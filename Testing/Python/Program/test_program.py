@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
 COMMANDS = ('reconstruct', 'sparse', 'calibrate', 'clusters', 'stereo', 'triangulate', 'contour', 'query', 'render',

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-SCENE = Path(__file__).resolve().parents[2] / 'Examples' / 'Data' / 'blocks'
+SCENE = Path(__file__).resolve().parents[3] / 'Examples' / 'Data' / 'blocks'
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 
 

@@ -31,7 +31,7 @@ try:
 except ImportError:
     DRIVER = None
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = os.environ['FREESPACE_PROGRAM']
 SCENE = ROOT / 'Examples' / 'Data' / 'blocks'
 CLUSTERS = 6
@@ -266,7 +266,7 @@ class TestPage(unittest.TestCase):
             counts = [int(row[column].replace(',', '')) for row in views[1:]]
             self.assertEqual(sum(counts[:-1]), counts[-1])
             self.assertGreater(min(counts), 0)
-        self.assertIn('in an earlier run', [row[2] for row in rows[2]])
+        self.assertIn('in an earlier run', [row[2] for row in rows[-1]])
 
     def test_figures_against_itself_are_perfect(self):
         self.open()
@@ -369,6 +369,57 @@ class TestTakingUp(WithFolder):
         self.assertIn('30 cameras in 1 clusters', (self.folder / 'out' / 'index.html').read_text())
 
 
+class TestModel(WithFolder):
+    """A structure-from-motion model in place of a scene.json."""
+
+    def make_model(self):
+        """Cluster1's cameras, and what the stereo finds there as points that all of its images observe."""
+        small_scene(self.folder)
+        for command in (('stereo', 'scene.json', '-o', 'features.vtm', '--every-image', 'off'),
+                        ('export', 'features.vtm', '-o', 'points.csv')):
+            self.assertEqual(run(*command, cwd=self.folder).returncode, 0)
+        table = np.genfromtxt(self.folder / 'points.csv', delimiter=',', names=True)[::3]
+        points = np.stack([table[axis] for axis in 'xyz'], axis=1)
+        lines = [line for line in (self.folder / 'sparse' / 'images.txt').read_text().splitlines()
+                 if line.endswith('.jpg') and 'cluster1_' in line]
+        lens = [float(word) for word in (self.folder / 'sparse' / 'cameras.txt').read_text().split('PINHOLE')[1].split()[2:6]]
+        images, tracks = [], [[] for _ in points]
+        for line in lines:
+            w, x, y, z, *t = map(float, line.split()[1:8])
+            rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                                 [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+            seen = points @ rotation.T + t
+            pixels = seen[:, :2] / seen[:, 2:] * lens[:2] + lens[2:]
+            images += [line, ' '.join(f'{u} {v} {i + 1}' for i, (u, v) in enumerate(pixels))]
+            for i, track in enumerate(tracks):
+                track.append(f'{line.split()[0]} {i}')
+        model = self.folder / 'model'
+        model.mkdir()
+        shutil.copy(self.folder / 'sparse' / 'cameras.txt', model)
+        (model / 'images.txt').write_text('\n'.join(images) + '\n')
+        (model / 'points3D.txt').write_text(''.join(
+            f'{i + 1} {x} {y} {z} 128 128 128 0.1 {" ".join(track)}\n'
+            for i, ((x, y, z), track) in enumerate(zip(points, tracks))))
+
+    def test_points_and_densified(self):
+        self.make_model()
+        log = self.report('model', '-o', 'out', '--cells', '24')
+        self.assertIn('sparse: done', log)
+        page = (self.folder / 'out' / 'index.html').read_text()
+        self.assertIn('<title>model', page)
+        self.assertIn('freespace sparse model -o', page)
+        self.assertIn('region (--region)', page)
+        self.assertEqual(json.loads((self.folder / 'out' / 'scene.json').read_text())['model'],
+                         os.path.relpath(self.folder / 'model', self.folder / 'out'))
+        self.assertNotIn('sparse: done', self.report('model', '-o', 'out', '--cells', '24'))
+        log = self.report('model', '-o', 'out', '--cells', '24', '--densify', 'images')
+        self.assertIn('stereo: done', log)
+        page = (self.folder / 'out' / 'index.html').read_text()
+        self.assertNotIn('freespace sparse model -o', page)
+        self.assertIn('cameras (--refine-cameras)', page)
+
+
 class TestBadInput(WithFolder):
     def fails(self, mentions, *arguments):
         before = sorted(path for path in self.folder.rglob('*'))
@@ -386,9 +437,18 @@ class TestBadInput(WithFolder):
         (self.folder / 'scene.json').write_text('{')
         self.fails('scene.json', 'scene.json', '-o', 'out')
 
-    def test_model_in_place_of_a_scene(self):
+    def test_model_without_points(self):
         small_scene(self.folder)
-        self.fails('scene.json', 'sparse', '-o', 'out')
+        self.fails('sparse', 'sparse', '-o', 'out')
+
+    def test_model_without_its_images(self):
+        small_scene(self.folder)
+        (self.folder / 'elsewhere').mkdir()
+        self.fails('elsewhere', 'sparse', '-o', 'out', '--images', 'elsewhere')
+
+    def test_options_of_models_for_a_scene(self):
+        small_scene(self.folder)
+        self.fails('scene.json', 'scene.json', '-o', 'out', '--densify', 'images')
 
     def test_missing_photograph(self):
         small_scene(self.folder)
