@@ -98,7 +98,7 @@ for command, options in USERS_OF_BLOCKS.items():
     for name, files in BLOCKS.items():
         row(f'{command} with {name}', files, [command, 'a.vtm', *options], r'a\.vt[mp]')
     row(f'{command} without a file', {}, [command, 'absent.vtm', *options], r'absent\.vtm')
-    row(f'{command} of a folder', {}, [command, 'images', *options], 'out.csv' if command == 'export' else 'images')
+    row(f'{command} of a folder', {}, [command, 'images', *options], 'images')
 
 # Scenes.
 

@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
+#include "Data/SilhouetteBlocks.h"
 #include "Export/FeatureExport.h"
 #include "Output/SurfaceFiles.h"
 #include "Output/ViewFiles.h"
@@ -78,6 +79,10 @@ void Export(Session& session, const Settings& settings)
   const std::string what = !settings.what.empty() ? settings.what
     : isViews                                     ? "features"
                                                   : "cameras";
+  if (settings.what.empty() && !isViews && LowerCaseExtension(settings.output) == ".csv")
+  {
+    throw Error("A .csv is of features, and '" + settings.input + "' is no .vtm that has some.");
+  }
   CheckEnding(KindOf(what), settings.output);
   CheckOutputFolder(settings.output);
   if (what == "cameras")
@@ -86,7 +91,7 @@ void Export(Session& session, const Settings& settings)
       session, Frusta(ReadCameras(session, settings.input), settings.depth), settings.output);
     return;
   }
-  const auto views = ReadViews(session, settings.input);
+  const auto views = WithoutSilhouettes(ReadViews(session, settings.input));
   if (LowerCaseExtension(settings.output) == ".csv")
   {
     WriteResult(settings.output, FeatureRows(views));
