@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/ViewBlocks.h"
 
+#include "Common/CameraFault.h"
 #include "Common/Error.h"
 
 #include <vtkCellArray.h>
@@ -127,12 +128,9 @@ Camera CameraFromBlock(vtkDataObject* block, const std::string& name)
   }
   camera.width = IntFrom(FlatValue(size, 0), name);
   camera.height = IntFrom(FlatValue(size, 1), name);
-  const bool usable = camera.K.allFinite() && camera.R.allFinite() && camera.t.allFinite() &&
-    camera.K.determinant() != 0 && camera.width > 0 && camera.height > 0;
-  if (!usable)
+  if (const std::string fault = CameraFault(camera); !fault.empty())
   {
-    throw Error(
-      "View '" + name + "' has a camera that is not finite, not invertible or without an image.");
+    throw Error("View '" + name + "' " + fault + ".");
   }
   return camera;
 }

@@ -164,10 +164,10 @@ TEST(StereoInMemory, FaultsOfImagesInMemoryAreNamed)
     { "its camera's size|The image l.png has 240 x 180 pixels, but its camera has 239 x 180",
       [&](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { field(blocks, "ImageSize")->SetComponent(0, 0, 239); } },
-    { "a rotation|The image l.png has a pose that is no rotation",
+    { "a rotation|The image l.png has a pose that does not begin with a rotation",
       [&](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { field(blocks, "CameraFromWorld")->SetComponent(0, 0, 2); } },
-    { "a pinhole|The image l.png has intrinsics that are not",
+    { "a pinhole|The image l.png has intrinsics with a skew",
       [&](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { field(blocks, "CameraIntrinsics")->SetComponent(0, 1, 2); } },
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/MemoryScene.h"
 
+#include "Common/CameraFault.h"
 #include "Common/Error.h"
 #include "Scene/ClusterFaults.h"
 #include "SparseModel/ModelBuilder.h"
@@ -18,18 +19,13 @@ namespace
 void Check(const MemoryImage& image)
 {
   const Camera& camera = image.camera;
-  const Eigen::Matrix3d& K = camera.K;
-  const bool isPinhole = K.allFinite() && K(0, 0) > 0 && K(1, 1) > 0 && K(0, 1) == 0 &&
-    K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
-  if (!isPinhole)
+  if (const std::string fault = CameraFault(camera); !fault.empty())
   {
-    throw Error("The image " + image.name +
-      " has intrinsics that are not those of a pinhole camera without skew.");
+    throw Error("The image " + image.name + " " + fault + ".");
   }
-  if (!camera.R.allFinite() || !camera.t.allFinite() || !camera.R.isUnitary(1e-4) ||
-    camera.R.determinant() < 0)
+  if (camera.K(0, 1) != 0)
   {
-    throw Error("The image " + image.name + " has a pose that is no rotation and translation.");
+    throw Error("The image " + image.name + " has intrinsics with a skew.");
   }
   if (image.pixels.empty() || image.pixels.cols != camera.width ||
     image.pixels.rows != camera.height)
