@@ -164,7 +164,7 @@ TEST(StereoInMemory, FaultsOfImagesInMemoryAreNamed)
     { "its camera's size|The image l.png has 240 x 180 pixels, but its camera has 239 x 180",
       [&](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { field(blocks, "ImageSize")->SetComponent(0, 0, 239); } },
-    { "a rotation|The image l.png has a pose that does not begin with a rotation",
+    { "a rotation|View 'l.png' has a pose that does not begin with a rotation",
       [&](vtkEdgeStereoReader*, vtkMultiBlockDataSet* blocks)
       { field(blocks, "CameraFromWorld")->SetComponent(0, 0, 2); } },
     { "a pinhole|The image l.png has intrinsics with a skew",
