@@ -24,6 +24,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 vtkStandardNewMacro(vtkTextureBaker);
@@ -97,6 +99,17 @@ Eigen::Vector3d LocalOrigin(const TriangleMesh& mesh)
   return isFar ? Eigen::Vector3d(box.center()) : Eigen::Vector3d::Zero();
 }
 
+// Of the images as they are given and copied, and of how far they see the surface, MiB.
+double MemoryOf(const std::vector<Photograph>& photographs)
+{
+  double pixels = 0;
+  for (const Photograph& photograph : photographs)
+  {
+    pixels += static_cast<double>(photograph.camera.width) * photograph.camera.height;
+  }
+  return pixels * MemoryOfPixel / (1 << 20);
+}
+
 }
 
 vtkTextureBaker::vtkTextureBaker()
@@ -105,6 +118,7 @@ vtkTextureBaker::vtkTextureBaker()
   const freespace::TextureAtlasOptions atlas;
   this->TexelSize = atlas.texel;
   this->LargestTexture = atlas.largest;
+  this->MemoryLimit = atlas.memory;
   const freespace::SurfaceColorOptions look;
   this->Sharpness = look.sharpness;
   this->Leveling = look.level;
@@ -173,6 +187,13 @@ int vtkTextureBaker::RequestData(
       point -= origin;
     }
     std::vector<Photograph> photographs = PhotographsFromBlocks(this->Photographs);
+    const double imageMemory = MemoryOf(photographs);
+    if (this->MemoryLimit > 0 && imageMemory >= this->MemoryLimit)
+    {
+      throw Error("The images take " + std::to_string(std::lround(imageMemory)) +
+        " MiB, and the limit of the memory is " + std::to_string(std::lround(this->MemoryLimit)) +
+        " MiB.");
+    }
     for (Photograph& photograph : photographs)
     {
       photograph.camera.t += photograph.camera.R * origin;
@@ -186,6 +207,7 @@ int vtkTextureBaker::RequestData(
     TextureAtlasOptions options;
     options.texel = this->TexelSize;
     options.largest = this->LargestTexture;
+    options.memory = this->MemoryLimit > 0 ? this->MemoryLimit - imageMemory : 0;
     options.unseen = 255 * Eigen::Vector3d(this->UnseenColor);
     const TextureAtlas atlas =
       BakeTexture(local, color, options, SMPParallelFor, progress.Part(0.2, 1.0));
@@ -206,6 +228,7 @@ void vtkTextureBaker::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Photographs: " << this->Photographs.Get() << "\n";
   os << indent << "TexelSize: " << this->TexelSize << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "LargestTexture: " << this->LargestTexture << "\n";
   os << indent << "Sharpness: " << this->Sharpness << "\n";
   os << indent << "Leveling: " << this->Leveling << "\n";

@@ -68,6 +68,15 @@ public:
 
   ///@{
   /**
+   * Limit of the memory for the images and the texture, MiB; 0, the default, is none. Texels become larger until the
+   * texture fits; where TexelSize is given, or the images alone do not fit, it is an error with an estimate.
+   */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
+  ///@{
+  /**
    * Exponent of the weights (confidence, incidence and resolution): how far the best image dominates.
    * Default 4.
    */
@@ -122,6 +131,7 @@ protected:
   // Defaults are those of freespace::TextureAtlasOptions and SurfaceColorOptions.
   double TexelSize;
   int LargestTexture;
+  double MemoryLimit;
   double Sharpness;
   vtkTypeBool Leveling;
   double Feather;

@@ -180,6 +180,28 @@ class TestTextureBaker(unittest.TestCase):
         self.assertLessEqual(max(small.GetTexture().GetDimensions()), 64)
         self.assertGreater(small.GetBakedTexelSize(), self.bake().GetBakedTexelSize())
 
+    def test_memory_is_limited(self):
+        blocks = photographs()
+        images = 10 / 2 ** 20 * sum(np.prod(blocks.GetBlock(i).GetDimensions()[:2])
+                                    for i in range(blocks.GetNumberOfBlocks()))
+        texture = 15 / 2 ** 20 * 64 * 64
+        baker = self.bake(MemoryLimit=images + texture)
+        width, height, _ = baker.GetTexture().GetDimensions()
+        self.assertLessEqual(width * height, 64 * 64)
+        self.assertGreater(baker.GetBakedTexelSize(), self.bake().GetBakedTexelSize())
+        for settings, told in (({'MemoryLimit': images / 2}, 'images take'),
+                               ({'MemoryLimit': images + texture, 'TexelSize': 0.001}, 'MiB')):
+            baker = freespace.vtkTextureBaker()
+            baker.SetInputDataObject(square())
+            baker.SetPhotographs(blocks)
+            for name, value in settings.items():
+                getattr(baker, 'Set' + name)(value)
+            errors = errors_of(baker)
+            baker.Update()
+            self.assertEqual(baker.GetOutput().GetNumberOfCells(), 0)
+            self.assertEqual(len(errors), 1)
+            self.assertIn(told, errors[0])
+
     def test_a_texel_too_fine_for_the_texture_is_refused(self):
         baker = freespace.vtkTextureBaker()
         baker.SetInputDataObject(square())

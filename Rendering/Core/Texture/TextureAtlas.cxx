@@ -91,6 +91,20 @@ double TexelOfPhotographs(const SurfaceGeometry& geometry, const SurfaceColor& c
   return 0;
 }
 
+// The colour of a texel in the atlas and in the output, its triangle and chart, and whether it is painted.
+constexpr double BytesOfTexel = 3 + 3 + 2 * sizeof(int) + 1;
+constexpr double Mebibyte = 1 << 20;
+
+// The longest side of an atlas that the memory allows, too.
+int LargestSide(const TextureAtlasOptions& options)
+{
+  constexpr double least = 16;
+  const double texels = options.memory * Mebibyte / BytesOfTexel;
+  return options.memory > 0
+    ? static_cast<int>(std::clamp<double>(std::sqrt(texels), least, options.largest))
+    : options.largest;
+}
+
 // Charts do not fill the atlas. Throws Error when the texel asked for cannot fit; BakeTexture may still
 // make it a little larger.
 void CheckTexel(const TextureAtlasOptions& options, double seenArea)
@@ -104,6 +118,16 @@ void CheckTexel(const TextureAtlasOptions& options, double seenArea)
           << " make a texture of about " << side / options.texel << " x " << side / options.texel
           << ", and its longest side may be " << options.largest << ": texels of side "
           << side / options.largest << " fit.";
+    throw Error(fault.str());
+  }
+  if (options.texel > 0 && std::sqrt(seenArea) / options.texel > LargestSide(options))
+  {
+    const double texels = side / options.texel * (side / options.texel);
+    std::ostringstream fault;
+    fault << std::setprecision(3) << "Texels of side " << options.texel
+          << " make a texture that takes about " << texels * BytesOfTexel / Mebibyte
+          << " MiB, and there are " << options.memory << " MiB for it: texels of side "
+          << side / LargestSide(options) << " fit.";
     throw Error(fault.str());
   }
 }
@@ -152,6 +176,10 @@ void AddCoordinates(const SurfaceGeometry& geometry, const std::vector<Chart>& c
 
 void TextureAtlasOptions::Check() const
 {
+  if (!(this->memory >= 0))
+  {
+    throw Error("The memory for a texture must not be negative.");
+  }
   if (!(this->texel >= 0) || this->largest < 16 || this->gutter < 0 || this->gutter > 64)
   {
     throw Error(
@@ -161,20 +189,22 @@ void TextureAtlasOptions::Check() const
 }
 
 TextureAtlas BakeTexture(const TriangleMesh& mesh, const SurfaceColor& color,
-  const TextureAtlasOptions& options, const ParallelFor& parallelFor, const Progress& progress)
+  const TextureAtlasOptions& wanted, const ParallelFor& parallelFor, const Progress& progress)
 {
-  options.Check();
+  wanted.Check();
   TextureAtlas atlas;
   const SurfaceGeometry geometry(mesh);
   const std::vector<char> seen = SeenTriangles(geometry, color, parallelFor);
   progress(0.1);
-  atlas.texel = options.texel > 0 ? options.texel : TexelOfPhotographs(geometry, color);
+  atlas.texel = wanted.texel > 0 ? wanted.texel : TexelOfPhotographs(geometry, color);
   double seenArea = 0;
   for (std::size_t t = 0; t < seen.size(); ++t)
   {
     seenArea += seen[t] ? geometry.areas[t] : 0;
   }
-  CheckTexel(options, seenArea);
+  CheckTexel(wanted, seenArea);
+  TextureAtlasOptions options = wanted;
+  options.largest = LargestSide(wanted);
   // A smaller texel can never fit and would only cost time; 1 if nothing is seen.
   const double smallest = std::sqrt(seenArea) / options.largest;
   atlas.texel = std::max(atlas.texel, smallest > 0 ? smallest : 1.0 * (atlas.texel == 0));

@@ -13,7 +13,10 @@ struct TextureAtlasOptions
   double texel = 0; ///< side of a texel on the surface, an error if it does not fit; 0: the size of
                     ///< the images' pixels on the surface, or larger
   int largest = 8192; ///< side of the atlas, texels
-  int gutter = 2;     ///< texels around each chart that repeat its border
+  double memory =
+    0; ///< limit for the atlas while it is made, MiB: texels are larger, or an error if their side
+       ///< is given; 0: none
+  int gutter = 2; ///< texels around each chart that repeat its border
   Eigen::Vector3d unseen = Eigen::Vector3d(178, 178, 178); ///< red, green, blue
 
   /// Throws Error when a value is out of its range.

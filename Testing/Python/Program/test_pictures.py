@@ -331,6 +331,10 @@ class TestRender(WithScene):
 
 
 class TestTexture(WithScene):
+    def test_memory_limit_is_checked_before_the_images_are_read(self):
+        self.fails('--memory-limit', 'texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'model.glb',
+                   '--memory-limit', 1)
+
     def test_glb_has_geometry_and_texture(self):
         self.succeed('texture', 'mesh.ply', '--scene', 'scene.json', '-o', 'model.glb', '--largest', 512)
         data = (self.folder / 'model.glb').read_bytes()

@@ -2,9 +2,13 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
+#include "Files/PathChecks.h"
 #include "Output/SurfaceFiles.h"
+#include "Scene/Scene.h"
+#include "Session/MachineMemory.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Texture/Photograph.h"
 #include "Texture/TextureAtlas.h"
 
 #include <vtkImageData.h>
@@ -14,8 +18,10 @@
 #include <vtkTextureBaker.h>
 #include <vtkTexturedSurfaceWriter.h>
 
+#include <cmath>
 #include <memory>
 #include <sstream>
+#include <string>
 
 namespace freespace
 {
@@ -30,6 +36,7 @@ struct Settings
   std::string output;
   double texel = TextureAtlasOptions().texel;
   int largest = TextureAtlasOptions().largest;
+  double memoryLimit = -1; // below 0: a share of the machine's
 };
 
 void AddOptions(CLI::App& command, Settings& settings)
@@ -53,6 +60,32 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_option("--largest", settings.largest, "Longest side of the texture, texels")
     ->check(CLI::Range(16, 32768))
     ->capture_default_str();
+  command
+    .add_option("--memory-limit", settings.memoryLimit,
+      "Limit of the memory for the images and the texture, MiB, for which texels become larger; 0: "
+      "no limit; default: three quarters of the memory of the machine")
+    ->check(NonNegative());
+}
+
+// Before the images are read. Throws Error where they alone exceed the limit.
+void CheckMemory(const Settings& settings, double limit)
+{
+  const Scene scene = ReadScene(settings.scene);
+  double pixels = 0;
+  for (const CalibratedImage& image : ReadSceneImages(scene))
+  {
+    if (IsThere(scene.ImagePath(image.file)))
+    {
+      pixels += static_cast<double>(image.camera.width) * image.camera.height;
+    }
+  }
+  const double needed = pixels * MemoryOfPixel / (1 << 20);
+  if (limit > 0 && needed >= limit)
+  {
+    throw Error("The images of " + settings.scene + " take " + std::to_string(std::lround(needed)) +
+      " MiB, and the limit of the memory is " + std::to_string(std::lround(limit)) +
+      " MiB (--memory-limit).");
+  }
 }
 
 void Texture(Session& session, const Settings& settings)
@@ -63,7 +96,9 @@ void Texture(Session& session, const Settings& settings)
       "Cannot write '" + settings.output + "': a model's file name ends in .glb, .obj or .ply.");
   }
   CheckOutputFolder(settings.output);
+  const double limit = settings.memoryLimit < 0 ? ShareOfMemory() : settings.memoryLimit;
   const auto surface = ReadSurface(session, settings.mesh);
+  CheckMemory(settings, limit);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
   session.Run(photographs, "photographs");
@@ -72,6 +107,7 @@ void Texture(Session& session, const Settings& settings)
   baker->SetPhotographs(photographs->GetOutput());
   baker->SetTexelSize(settings.texel);
   baker->SetLargestTexture(settings.largest);
+  baker->SetMemoryLimit(limit);
   session.Run(baker, "texture");
   if (baker->GetNumberOfCharts() == 0)
   {
