@@ -154,7 +154,9 @@ TEST(SimplifySurface, RandomUnionsKeepTheBoundTheTopologyAndTheLabels)
     EXPECT_LE(FurthestSample(simple, surface), bound);
     // Each label's border stays, so its region shows the same area, but for what the bound allows.
     std::map<std::int64_t, Vector3d> before, after;
-    for (const auto& [from, areas] : { std::make_pair(&surface, &before), { &simple, &after } })
+    const std::pair<decltype(&surface), decltype(&before)> sides[] = { { &surface, &before },
+      { &simple, &after } };
+    for (const auto& [from, areas] : sides)
     {
       for (std::size_t t = 0; t < from->triangles.size(); ++t)
       {
