@@ -81,7 +81,8 @@ void Export(Session& session, const Settings& settings)
                                                   : "cameras";
   if (settings.what.empty() && !isViews && LowerCaseExtension(settings.output) == ".csv")
   {
-    throw Error("A .csv is of features, and '" + settings.input + "' is no .vtm that has some.");
+    throw Error("Cannot write '" + settings.output + "': a .csv holds features, and '" +
+      settings.input + "' is no .vtm that has some.");
   }
   CheckEnding(KindOf(what), settings.output);
   CheckOutputFolder(settings.output);
