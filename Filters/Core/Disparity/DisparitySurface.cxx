@@ -145,13 +145,13 @@ void DisparitySurface<Triangulation>::PutInto(Face face, int candidate)
 template <typename Triangulation>
 void DisparitySurface<Triangulation>::Enqueue(Face face)
 {
-  Highest highest{ 0, -1, -1, face, face->info().version };
+  Highest highest{ 0, -1, -1, face, face->info().changed };
   for (int c = face->info().firstCandidate; c >= 0; c = this->Candidates[c].next)
   {
     const Candidate& point = this->Candidates[c];
     if (point.height > this->Tolerance * point.disparity)
     {
-      const Highest entry{ point.height, c, point.given, face, face->info().version };
+      const Highest entry{ point.height, c, point.given, face, face->info().changed };
       if (highest.candidate < 0 || highest < entry)
       {
         highest = entry;
@@ -219,7 +219,6 @@ void DisparitySurface<Triangulation>::TakeCandidates(int inserted)
       }
     }
     info.firstCandidate = -1;
-    ++info.version;
     info.changed = ++this->Changes;
   }
 }
@@ -321,7 +320,7 @@ void DisparitySurface<Triangulation>::InsertHighest(const CancellationFlag& stop
     ThrowIfCancelled(stop);
     const Highest highest = this->Queue.top();
     this->Queue.pop();
-    if (highest.version == highest.face->info().version)
+    if (highest.changed == highest.face->info().changed)
     {
       this->Insert(highest.candidate, highest.face);
     }

@@ -26,13 +26,12 @@ namespace freespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Pixel = Kernel::Point_2;
 
-/// Data of a triangle: the head of the list of the candidates inside it, and a number that counts
-/// its changes, by which outdated entries of the queue are recognized. For the flips, when it last changed and when its
-/// edges were last looked at, in changes of all triangles.
+/// Data of a triangle: the head of the list of the candidates inside it, when it last changed, by which outdated entries
+/// of the queue are recognized, and when its edges were last looked at to flip them. Times are numbers of changes of all
+/// triangles.
 struct FaceInfo
 {
   int firstCandidate = -1;
-  unsigned int version = 0;
   unsigned int changed = 0;
   unsigned int lookedAt = 0;
 };
@@ -128,7 +127,7 @@ private:
     int candidate;
     int given;
     Face face;
-    unsigned int version;
+    unsigned int changed; // of the face, when this was pushed
 
     // The queue serves the highest; of equals, the one that was given first.
     bool operator<(const Highest& other) const
