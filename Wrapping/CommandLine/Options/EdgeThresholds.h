@@ -2,6 +2,8 @@
 #ifndef freespace_EdgeThresholds_h
 #define freespace_EdgeThresholds_h
 
+#include "Stereo/EdgeStereo.h"
+
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -15,15 +17,11 @@ namespace freespace
 class EdgeThresholds
 {
 public:
-  EdgeThresholds();
-
   void AddTo(CLI::App& command, const std::string& group);
   void SetUp(vtkEdgeStereoReader* reader) const;
 
 private:
-  double Smoothing, LowContrast, HighContrast;
-  double Tolerance, MinimumAngle, ColorTolerance;
-  int MinimumRun;
+  EdgeStereoOptions Options;
 };
 
 }
