@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Common/Error.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Output/Picture.h"
 #include "Output/SurfaceFiles.h"
 #include "Session/Session.h"
 #include "Stages/ContourStage.h"
-#include "Stages/DensifyStage.h"
-#include "Stages/SparseStage.h"
-#include "Stages/StereoStage.h"
+#include "Stages/FeatureStage.h"
 #include "Stages/TriangulateStage.h"
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
-#include <vtkSparseModelReader.h>
 
 #include <algorithm>
 #include <memory>
@@ -30,9 +26,7 @@ struct Settings
   std::string scene;
   std::string output;
   std::string picture;
-  StereoStage stereo;
-  SparseStage sparse;
-  DensifyStage densify;
+  FeatureStage features;
   TriangulateStage triangulate;
   ContourStage contour;
 };
@@ -52,33 +46,9 @@ void AddOptions(CLI::App& command, Settings& settings)
     .add_option("--picture", settings.picture,
       "Write a picture of the surface, too, from a viewpoint between the cameras")
     ->type_name("OUT.png");
-  settings.stereo.AddOptions(command);
-  settings.sparse.AddOptions(command);
-  settings.densify.AddOptions(command);
+  settings.features.AddOptions(command);
   settings.triangulate.AddOptions(command);
   settings.contour.AddOptions(command);
-}
-
-vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(Session& session, const Settings& settings)
-{
-  if (vtkSparseModelReader::CanReadFile(settings.scene))
-  {
-    if (settings.stereo.NeedsMasks())
-    {
-      throw Error("--mask-is-free is for a scene.json that names masks, and " + settings.scene +
-        " is a structure-from-motion model.");
-    }
-    const auto features = settings.sparse.Run(session, settings.scene);
-    return settings.densify.IsWanted()
-      ? settings.densify.Run(session, settings.scene, features, settings.stereo)
-      : features;
-  }
-  if (settings.densify.IsWanted())
-  {
-    throw Error("--densify is for a structure-from-motion model, and " + settings.scene +
-      " is none: the features of a scene.json come from its images anyway.");
-  }
-  return settings.stereo.Run(session, settings.scene);
 }
 
 // That of the images, unless it is very large.
@@ -97,7 +67,7 @@ void Reconstruct(Session& session, const Settings& settings)
   {
     CheckPictureName(settings.picture);
   }
-  const auto features = FindFeatures(session, settings);
+  const auto features = settings.features.Run(session, settings.scene);
   const auto maps = settings.triangulate.Run(session, features);
   const auto surface = settings.contour.Run(session, maps);
   WriteSurface(session, surface, settings.output);

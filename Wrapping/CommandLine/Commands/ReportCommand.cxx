@@ -22,7 +22,6 @@
 
 #include <vtkNew.h>
 #include <vtkPhotographReader.h>
-#include <vtkSparseModelReader.h>
 
 #include <algorithm>
 #include <cctype>
@@ -108,16 +107,11 @@ void AddOptions(CLI::App& command, Settings& settings)
   settings.stages.AddOptions(command);
 }
 
-bool IsModel(const Settings& settings)
-{
-  return vtkSparseModelReader::CanReadFile(settings.scene);
-}
-
 // Of a model, with the images that are asked for. Throws Error where none of them is there.
 Scene ReadSceneForReport(const Settings& settings)
 {
   Scene scene = ReadScene(settings.scene);
-  if (!IsModel(settings))
+  if (!FeatureStage::IsModel(settings.scene))
   {
     if (!settings.images.empty() || !settings.stages.DensifyFolder().empty())
     {
@@ -129,7 +123,7 @@ Scene ReadSceneForReport(const Settings& settings)
   const std::string& asked =
     settings.images.empty() ? settings.stages.DensifyFolder() : settings.images;
   scene.images = fs::absolute(asked.empty() ? scene.ImagesFolder() : asked).string();
-  const std::vector<CalibratedImage> images = ReadSceneImages(ReadScene(settings.scene));
+  const std::vector<CalibratedImage> images = ReadSceneImages(scene);
   const bool areThere = std::any_of(images.begin(), images.end(),
     [&scene](const CalibratedImage& image) { return IsThere(scene.ImagePath(image.file)); });
   if (!areThere)
@@ -313,13 +307,13 @@ std::vector<ReportCommand> Commands(const Settings& settings, const CLI::App& co
     commands.push_back({ "The surface alone, all stages in one:",
       Line({ "freespace", "reconstruct", scene, "-o", mesh }, stageOptions) });
   }
-  const std::string stages = settings.stages.StageCommands(scene, IsModel(settings), folder);
+  const std::string stages = settings.stages.StageCommands(scene, folder);
   if (!stages.empty())
   {
     commands.push_back({ "The same, a stage at a time:", stages });
   }
   const std::string pictured =
-    IsModel(settings) ? (fs::path(folder) / "scene.json").string() : scene;
+    FeatureStage::IsModel(scene) ? (fs::path(folder) / "scene.json").string() : scene;
   commands.push_back({ "A model for other programs, and pictures all around it:",
     Line({ "freespace", "texture", mesh, "--scene", pictured, "-o",
            (fs::path(folder) / "model.glb").string() },
@@ -421,8 +415,8 @@ void MakeReport(Session& session, Settings& settings, const CLI::App& command)
   const auto truth = ReadTruth(session, settings);
   const NewFolder folder(settings.folder);
   CheckOutputFolder(file);
-  settings.stages.Run(session, scene, IsModel(settings) ? settings.scene : "", settings.folder);
-  if (IsModel(settings))
+  settings.stages.Run(session, scene, settings.folder);
+  if (FeatureStage::IsModel(scene.file))
   {
     scene = WriteSceneOfModel(std::move(scene), settings.folder);
   }

@@ -26,12 +26,12 @@ const char* const modelGroup = "Structure-from-motion model";
 const char* const mapsGroup = "Disparity maps";
 const char* const surfaceGroup = "Surface";
 
-// What the features depend on: the scene, its cameras and its images. That of a model is written for the report.
-std::vector<std::string> SourcesOf(const Scene& scene, const std::string& model)
+// What the features depend on: a model, or the scene, its cameras and its images.
+std::vector<std::string> SourcesOf(const Scene& scene)
 {
-  if (!model.empty())
+  if (FeatureStage::IsModel(scene.file))
   {
-    return { model };
+    return { scene.file };
   }
   std::vector<std::string> sources = { scene.file, scene.ModelFolder() };
   for (const Cluster& cluster : scene.clusters)
@@ -107,9 +107,7 @@ void StageCache::AddOptions(CLI::App& command)
   command
     .add_flag("--fresh", this->Fresh, "Make every stage anew, whatever an earlier run left in DIR")
     ->group("Take up");
-  this->Stereo.AddOptions(command);
-  this->Sparse.AddOptions(command);
-  this->Densify.AddOptions(command);
+  this->Finder.AddOptions(command);
   this->Triangulate.AddOptions(command);
   this->Contour.AddOptions(command);
 }
@@ -145,18 +143,6 @@ void StageCache::ReadGiven(Session& session)
   }
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> StageCache::FindFeatures(
-  Session& session, const Scene& scene, const std::string& model) const
-{
-  if (model.empty())
-  {
-    return this->Stereo.Run(session, scene.file);
-  }
-  const auto points = this->Sparse.Run(session, model);
-  return this->Densify.IsWanted() ? this->Densify.Run(session, model, points, this->Stereo)
-                                  : points;
-}
-
 // Those of the stages that find features, as words.
 std::vector<std::string> StageCache::FeatureOptions(bool isModel) const
 {
@@ -169,8 +155,7 @@ std::vector<std::string> StageCache::FeatureOptions(bool isModel) const
   return words;
 }
 
-void StageCache::Run(
-  Session& session, const Scene& scene, const std::string& model, const std::string& folder)
+void StageCache::Run(Session& session, const Scene& scene, const std::string& folder)
 {
   StageRecord record((fs::path(folder) / "stages.json").string());
   const std::string features = this->FeaturesFile(folder);
@@ -178,12 +163,12 @@ void StageCache::Run(
   const std::string surface = this->SurfaceFile(folder);
   this->Taken.push_back(TakeUpOrMake(
     session, record,
-    { "features", this->FeatureOptions(!model.empty()), features, SourcesOf(scene, model),
-      !this->GivenFeatures.empty() },
+    { "features", this->FeatureOptions(FeatureStage::IsModel(scene.file)), features,
+      SourcesOf(scene), !this->GivenFeatures.empty() },
     this->Fresh, [&]() { this->FoundFeatures = ReadViews(session, features); },
     [&]()
     {
-      this->FoundFeatures = this->FindFeatures(session, scene, model);
+      this->FoundFeatures = this->Finder.Run(session, scene.file);
       WriteViews(session, this->FoundFeatures, features);
     }));
   this->Taken.push_back(TakeUpOrMake(
@@ -208,11 +193,11 @@ void StageCache::Run(
     }));
 }
 
-std::string StageCache::StageCommands(
-  const std::string& source, bool isModel, const std::string& folder) const
+std::string StageCache::StageCommands(const std::string& source, const std::string& folder) const
 {
   std::string lines;
-  if (isModel && this->Densify.IsWanted())
+  const bool isModel = FeatureStage::IsModel(source);
+  if (isModel && !this->DensifyFolder().empty())
   {
     return lines;
   }

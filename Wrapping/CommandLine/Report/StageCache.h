@@ -4,9 +4,7 @@
 
 #include "Session/Choices.h"
 #include "Stages/ContourStage.h"
-#include "Stages/DensifyStage.h"
-#include "Stages/SparseStage.h"
-#include "Stages/StereoStage.h"
+#include "Stages/FeatureStage.h"
 #include "Stages/TriangulateStage.h"
 
 #include <vtkMultiBlockDataSet.h>
@@ -41,13 +39,11 @@ public:
   void ReadGiven(Session& session);
 
   /// Computes what is neither given nor in the folder, is older than its inputs, or was made with other
-  /// options or by another version. The features are the points of a model, if there is one, densified where asked
-  /// for; else those of stereo on the scene. Throws Error when a stage fails.
-  void Run(
-    Session& session, const Scene& scene, const std::string& model, const std::string& folder);
+  /// options or by another version. The file of the scene is a scene.json or a model. Throws Error when a stage fails.
+  void Run(Session& session, const Scene& scene, const std::string& folder);
 
   /// The folder of --densify; empty without it.
-  const std::string& DensifyFolder() const { return this->Densify.Folder(); }
+  const std::string& DensifyFolder() const { return this->Finder.DensifyFolder(); }
 
   vtkMultiBlockDataSet* Features() const { return this->FoundFeatures; }
   vtkMultiBlockDataSet* Maps() const { return this->FoundMaps; }
@@ -61,8 +57,7 @@ public:
 
   /// The commands that make them, a stage at a time, for a shell; empty where a model is densified, which
   /// no single stage does.
-  std::string StageCommands(
-    const std::string& source, bool isModel, const std::string& folder) const;
+  std::string StageCommands(const std::string& source, const std::string& folder) const;
 
   /// The options of all stages that were given, as words.
   std::vector<std::string> Options() const;
@@ -71,14 +66,10 @@ public:
   bool AreAllMade() const;
 
 private:
-  vtkSmartPointer<vtkMultiBlockDataSet> FindFeatures(
-    Session& session, const Scene& scene, const std::string& model) const;
   std::vector<std::string> FeatureOptions(bool isModel) const;
 
   CLI::App* Command = nullptr;
-  StereoStage Stereo;
-  SparseStage Sparse;
-  DensifyStage Densify;
+  FeatureStage Finder;
   TriangulateStage Triangulate;
   ContourStage Contour;
   std::string GivenFeatures;

@@ -2,6 +2,7 @@
 #include "Stages/ContourStage.h"
 
 #include "Common/FileExtension.h"
+#include "Data/PointNormals.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Freespace/FreespaceUnion.h"
 #include "Output/PieceStream.h"
@@ -17,7 +18,6 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkSimplifySurfaceFilter.h>
 
 #include <algorithm>
@@ -241,12 +241,7 @@ vtkSmartPointer<vtkPolyData> ContourStage::Join(Session& session, vtkMultiBlockD
   }
   if (this->Normals)
   {
-    vtkNew<vtkPolyDataNormals> normals;
-    normals->SetInputData(surface);
-    normals->SplittingOff();
-    normals->ConsistencyOff();
-    session.Run(normals, "normals");
-    surface = normals->GetOutput();
+    ComputePointNormals(surface);
   }
   return surface;
 }
