@@ -9,8 +9,8 @@
  * vtkRenderWindowInteractor::New, in C++ (with vtk_module_autoinit) and in Python (after the import of
  * freespace.vtkFreespaceRendering, before or after vtkRenderingOpenGL2). It can also be created by name,
  * with an X server as well. The environment variable FREESPACE_WINDOW decides instead of the X server: `osmesa` for
- * this class, `display` for VTK's own; vtkSurfacePicture uses this class unless it is `display`. Each window has its own context; several windows can be used in turn, and each
- * from one thread at a time.
+ * this class, `display` for VTK's own; vtkSurfacePicture uses this class unless it is `display`. Each window has its
+ * own context; several windows can be used in turn, and each from one thread at a time.
  *
  * From release 9.4 VTK chooses such a window by itself, and this class does not exist.
  *

@@ -49,8 +49,7 @@ DisparityMap SilhouetteMap(const CalibratedImage& image, const PlanarTriangles& 
   map.name = image.file + " (mask)";
   map.imageFile = image.file;
   map.camera = image.camera;
-  const std::vector<Vector2d> pixels =
-    image.IsPinhole() ? black.points : UndistortPixels(image, black.points);
+  const std::vector<Vector2d> pixels = UndistortPixels(image, black.points);
   std::vector<int> indices(pixels.size(), -1);
   for (std::size_t i = 0; i < pixels.size(); ++i)
   {
