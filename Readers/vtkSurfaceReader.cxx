@@ -32,7 +32,7 @@ namespace
 {
 
 // What the inner reader finds wrong is told below, in a sentence that names the file.
-void Ignore(vtkObject*, unsigned long, void*, void*) {}
+void IgnoreError(vtkObject*, unsigned long, void*, void*) {}
 
 vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
 {
@@ -40,7 +40,7 @@ vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(fileName.c_str());
   vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback(Ignore);
+  silence->SetCallback(IgnoreError);
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetReaderErrorObserver(silence);

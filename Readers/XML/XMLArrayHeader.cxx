@@ -14,8 +14,6 @@ namespace freespace
 namespace
 {
 
-constexpr double mostCompressed = 1100; // zlib's and LZ4's limits are below
-
 std::uint64_t WordAt(const unsigned char* bytes, std::size_t index, bool isLong)
 {
   if (isLong)

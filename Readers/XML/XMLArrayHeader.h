@@ -12,7 +12,8 @@ namespace freespace
 /// compressed, the number of blocks, the size of a block and of the last one, and the compressed sizes.
 struct ArrayHeader
 {
-  static constexpr std::size_t mostText = 64; ///< of base64 that is looked at
+  static constexpr std::size_t mostText = 64;    ///< of base64 that is looked at
+  static constexpr double mostCompressed = 1100; ///< zlib's and LZ4's limits are below
 
   std::string_view text; ///< from the header on
   bool isBase64 = false;

@@ -25,8 +25,7 @@ namespace freespace
 namespace
 {
 
-constexpr int deepest = 16;             // elements in elements; a .vtp has 5
-constexpr double mostCompressed = 1100; // zlib's and LZ4's limits are below
+constexpr int deepest = 16; // elements in elements; a .vtp has 5
 constexpr std::string_view appendedTag = "<AppendedData";
 
 /// Walks over the elements of a file without keeping them.
@@ -51,7 +50,7 @@ public:
       this->Tell("a block has an index beyond the number of blocks");
     }
     const double most = static_cast<double>(this->Length) *
-      (this->IsCompressed ? mostCompressed : 4); // "0 " is a number of 8 bytes
+      (this->IsCompressed ? ArrayHeader::mostCompressed : 4); // "0 " is a number of 8 bytes
     if (!(this->DeclaredBytes <= most + 4096))
     {
       this->Tell("it is truncated, or counts more values than it holds");

@@ -13,12 +13,12 @@ using Eigen::Vector2d;
 namespace
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-using Storage = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using OutlineKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using OutlineVertex = CGAL::Triangulation_vertex_base_with_info_2<int, OutlineKernel>;
+using OutlineFace = CGAL::Constrained_triangulation_face_base_2<OutlineKernel>;
+using Storage = CGAL::Triangulation_data_structure_2<OutlineVertex, OutlineFace>;
 using Triangulation =
-  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage, CGAL::Exact_predicates_tag>;
+  CGAL::Constrained_Delaunay_triangulation_2<OutlineKernel, Storage, CGAL::Exact_predicates_tag>;
 
 constexpr int notYetAPoint = -1;
 

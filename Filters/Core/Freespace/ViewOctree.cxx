@@ -21,7 +21,7 @@ constexpr std::size_t MostNodes = 1 << 17;
 constexpr std::size_t MostUndecided = 1 << 23;
 
 // Evaluating this number of views costs no more than another level.
-constexpr std::size_t FewViews = 1;
+constexpr std::size_t LeafViews = 1;
 
 }
 
@@ -42,7 +42,7 @@ ViewOctree::ViewOctree(std::size_t views, const AlignedBox3d& box, const Questio
     for (const auto& [node, part] : level)
     {
       const std::size_t undecided = this->Nodes[node].end - this->Nodes[node].begin;
-      if (undecided <= FewViews || this->Nodes[node].votes.free >= enough ||
+      if (undecided <= LeafViews || this->Nodes[node].votes.free >= enough ||
         this->Nodes.size() + 8 > MostNodes || this->Undecided.size() > MostUndecided)
       {
         settled += share;

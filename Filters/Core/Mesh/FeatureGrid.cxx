@@ -14,7 +14,7 @@ namespace
 
 // Number of bits of a cell's coordinate; features beyond share the last cell.
 constexpr int Bits = 21;
-constexpr double MostCells = (1 << Bits) - 1;
+constexpr double MostCellsOfAxis = (1 << Bits) - 1;
 
 }
 
@@ -61,7 +61,7 @@ FeatureGrid::FeatureGrid(const std::vector<Vector3d>& points, double reach)
 FeatureGrid::Index FeatureGrid::CellOf(const Vector3d& place) const
 {
   const Vector3d at = ((place - this->Origin) / this->Side).array().floor();
-  return at.cwiseMax(0.0).cwiseMin(MostCells).cast<std::int64_t>();
+  return at.cwiseMax(0.0).cwiseMin(MostCellsOfAxis).cast<std::int64_t>();
 }
 
 std::uint64_t FeatureGrid::KeyOf(const Index& cell)

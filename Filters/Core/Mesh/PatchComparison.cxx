@@ -17,7 +17,7 @@ namespace
 constexpr double LeastHeight = 1e-3;
 
 // The least cosine of the angle between a triangle's normal and that of the plane.
-constexpr double LeastCosine = 0.2;
+constexpr double LeastUpCosine = 0.2;
 
 Vector3d Normal(const std::array<Vector3d, 3>& t)
 {
@@ -52,7 +52,7 @@ bool PatchComparison::Begin(const Triangles& before, const Triangles& after)
     for (const auto& t : *triangles)
     {
       const Vector3d normal = Normal(t);
-      if (!(normal.dot(this->Up) > LeastCosine * normal.norm()))
+      if (!(normal.dot(this->Up) > LeastUpCosine * normal.norm()))
       {
         return false;
       }

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr int LongestWalk = 48; // triangles
-constexpr std::int64_t MostCells = 1 << 23;
+constexpr std::int64_t MostRasterCells = 1 << 23;
 constexpr double CellsPerTriangle = 3.0;
 
 }
@@ -80,7 +80,7 @@ void RasterMesh::ScaleToRaster()
   }
   const Vector2d size = box.sizes().cwiseMax(1e-9 * (1.0 + box.sizes().maxCoeff()));
   const double wanted = std::min<double>(
-    static_cast<double>(MostCells), CellsPerTriangle * this->AllTriangles.size() + 16.0);
+    static_cast<double>(MostRasterCells), CellsPerTriangle * this->AllTriangles.size() + 16.0);
   const double side = std::max(std::sqrt(size.prod() / wanted), size.maxCoeff() / (0.5 * wanted));
   this->Columns = static_cast<int>(size.x() / side) + 1;
   this->Rows = static_cast<int>(size.y() / side) + 1;

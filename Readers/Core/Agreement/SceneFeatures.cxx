@@ -21,7 +21,7 @@ double Share(const EdgeView& view)
 }
 
 // The view of a cluster, or one without features.
-EdgeView FeaturesOf(EdgeStore& edges, PhotographStore& photographs,
+EdgeView FeaturesOf(EdgeStore& edges, ImagePyramids& photographs,
   const std::vector<CalibratedImage>& images, const Cluster& cluster, bool isNeeded,
   const EdgeStereoOptions& options, const CancellationFlag& stop)
 {
@@ -87,7 +87,7 @@ std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   std::vector<std::string>& warnings)
 {
   std::vector<EdgeView> views(scene.clusters.size());
-  PhotographStore photographs(scene);
+  ImagePyramids photographs(scene);
   ParallelForWithProgress(views.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
     {

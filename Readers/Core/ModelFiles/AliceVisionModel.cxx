@@ -136,7 +136,7 @@ fs::path CommonFolder(const std::vector<fs::path>& paths)
   return common;
 }
 
-void ReadStructure(const JsonNode& root, const Ids& images, ModelBuilder& model)
+void ReadAliceVisionPoints(const JsonNode& root, const Ids& images, ModelBuilder& model)
 {
   for (const JsonNode& landmark : root.At("structure").Elements())
   {
@@ -165,7 +165,7 @@ void ReadStructure(const JsonNode& root, const Ids& images, ModelBuilder& model)
   }
 }
 
-std::unordered_map<std::uint64_t, CenteredPose> ReadPoses(const JsonNode& root)
+std::unordered_map<std::uint64_t, CenteredPose> ReadAliceVisionPoses(const JsonNode& root)
 {
   std::unordered_map<std::uint64_t, CenteredPose> poses;
   for (const JsonNode& pose : root.At("poses").Elements())
@@ -188,7 +188,7 @@ struct PlacedView
 
 std::vector<PlacedView> PlacedViews(const JsonNode& root, const Ids& cameras)
 {
-  const auto poses = ReadPoses(root);
+  const auto poses = ReadAliceVisionPoses(root);
   std::vector<PlacedView> placed;
   for (const JsonNode& view : root.At("views").Elements())
   {
@@ -236,7 +236,7 @@ SparseModel ReadAliceVisionModel(const std::string& file)
   }
   if (root.Has("structure"))
   {
-    ReadStructure(root, images, model);
+    ReadAliceVisionPoints(root, images, model);
   }
   return model.Take();
 }

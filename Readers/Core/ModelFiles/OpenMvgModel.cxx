@@ -102,7 +102,7 @@ std::unordered_map<std::uint64_t, std::uint32_t> ReadIntrinsics(
   return cameras;
 }
 
-std::unordered_map<std::uint64_t, CenteredPose> ReadPoses(const JsonNode& root)
+std::unordered_map<std::uint64_t, CenteredPose> ReadOpenMvgPoses(const JsonNode& root)
 {
   std::unordered_map<std::uint64_t, CenteredPose> poses;
   for (const JsonNode& element : root.At("extrinsics").Elements())
@@ -117,7 +117,7 @@ std::unordered_map<std::uint64_t, CenteredPose> ReadPoses(const JsonNode& root)
   return poses;
 }
 
-void ReadStructure(const JsonNode& root,
+void ReadOpenMvgPoints(const JsonNode& root,
   const std::unordered_map<std::uint64_t, std::uint32_t>& images, ModelBuilder& model)
 {
   for (const JsonNode& element : root.At("structure").Elements())
@@ -149,7 +149,7 @@ SparseModel ReadOpenMvgModel(const std::string& file)
     fs::path(file).parent_path() / given; // or the given one when it is absolute
   ModelBuilder model(file, folder.string());
   const auto cameras = ReadIntrinsics(root, model);
-  const auto poses = ReadPoses(root);
+  const auto poses = ReadOpenMvgPoses(root);
   std::unordered_map<std::uint64_t, std::uint32_t> images;
   for (const JsonNode& element : root.At("views").Elements())
   {
@@ -168,7 +168,7 @@ SparseModel ReadOpenMvgModel(const std::string& file)
   }
   if (root.Has("structure"))
   {
-    ReadStructure(root, images, model);
+    ReadOpenMvgPoints(root, images, model);
   }
   return model.Take();
 }

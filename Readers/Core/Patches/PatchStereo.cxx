@@ -58,11 +58,11 @@ std::vector<Vector2d> EmptyPlaces(
 class CoarseToFine
 {
 public:
-  CoarseToFine(const Camera& camera, const Photograph& reference,
-    const std::vector<CalibratedImage>& partners, PhotographStore& photographs,
+  CoarseToFine(const Camera& camera, const ImagePyramid& reference,
+    const std::vector<CalibratedImage>& partners, ImagePyramids& images,
     const PatchOptions& options)
-    : Fine(MakeAligner(camera, reference, partners, photographs, 0, options))
-    , Coarse(MakeAligner(camera, reference, partners, photographs, 1, CoarseOptions(options)))
+    : Fine(MakeAligner(camera, reference, partners, images, 0, options))
+    , Coarse(MakeAligner(camera, reference, partners, images, 1, CoarseOptions(options)))
   {
   }
 
@@ -87,14 +87,14 @@ private:
     return options;
   }
 
-  static PatchAligner MakeAligner(const Camera& camera, const Photograph& reference,
-    const std::vector<CalibratedImage>& partners, PhotographStore& photographs, int level,
+  static PatchAligner MakeAligner(const Camera& camera, const ImagePyramid& reference,
+    const std::vector<CalibratedImage>& partners, ImagePyramids& images, int level,
     const PatchOptions& options)
   {
     std::vector<PatchAligner::Image> others;
     for (const CalibratedImage& partner : partners)
     {
-      others.push_back({ partner.camera, photographs.Find(partner)->levels[level] });
+      others.push_back({ partner.camera, images.Find(partner)->levels[level] });
     }
     return PatchAligner({ camera, reference.levels[level] }, others, level == 0 ? 1 : 0.5, options);
   }
@@ -106,13 +106,13 @@ private:
 
 std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Vector2d>& seeds,
   const CalibratedImage& reference, const std::vector<CalibratedImage>& partners,
-  PhotographStore& photographs, const PatchOptions& options, const CancellationFlag& stop)
+  ImagePyramids& images, const PatchOptions& options, const CancellationFlag& stop)
 {
   options.Check();
-  const auto photograph = photographs.Find(reference);
-  const CoarseToFine aligner(reference.camera, *photograph, partners, photographs, options);
+  const auto image = images.Find(reference);
+  const CoarseToFine aligner(reference.camera, *image, partners, images, options);
   const DisparityPlanes planes(view);
-  std::vector<Vector2d> places = EmptyPlaces(view, seeds, photograph->mask, options.spacing);
+  std::vector<Vector2d> places = EmptyPlaces(view, seeds, image->mask, options.spacing);
   places.insert(places.begin(), seeds.begin(), seeds.end());
   std::vector<PatchFeature> found;
   for (const Vector2d& place : places)
@@ -129,7 +129,7 @@ std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Vector
     if (patch.isGood)
     {
       const cv::Vec3b& color =
-        photograph->color(static_cast<int>(place.y()), static_cast<int>(place.x()));
+        image->color(static_cast<int>(place.y()), static_cast<int>(place.x()));
       found.push_back({ place, patch.plane.disparity, patch.deviation,
         std::max(0.0, 1 - patch.correlation), { color[2], color[1], color[0] } });
     }

@@ -5,7 +5,7 @@
 #include "Common/CancellationFlag.h"
 #include "Common/View.h"
 #include "Patches/PatchOptions.h"
-#include "Patches/PhotographStore.h"
+#include "Patches/ImagePyramids.h"
 
 #include <array>
 #include <vector>
@@ -33,7 +33,7 @@ struct PatchFeature
 /// when the flag is set.
 std::vector<PatchFeature> FindPatches(const View& view, const std::vector<Eigen::Vector2d>& seeds,
   const CalibratedImage& reference, const std::vector<CalibratedImage>& partners,
-  PhotographStore& photographs, const PatchOptions& options,
+  ImagePyramids& images, const PatchOptions& options,
   const CancellationFlag& stop = NeverCancelled);
 
 }

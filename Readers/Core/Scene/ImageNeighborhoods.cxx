@@ -14,8 +14,6 @@ namespace freespace
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double radian = pi / 180;
 constexpr std::size_t SamplesPerImage = 300;
 constexpr std::size_t MostNeighbors = 16;
 
@@ -60,7 +58,7 @@ std::optional<double> DepthOfAxes(const Camera& first, const Camera& second)
   const Eigen::Vector3d a = Axis(first), b = Axis(second);
   const Eigen::Vector3d baseline = second.Center() - first.Center();
   const double angle = Angle(a, b);
-  if (angle < 1 * radian || angle > 90 * radian)
+  if (angle < 1 * degree || angle > 90 * degree)
   {
     return std::nullopt;
   }
@@ -198,7 +196,7 @@ double ImageNeighborhoods::SceneDepth(std::size_t i) const
       }
     }
   }
-  return MedianOr(std::move(depths), nearest / std::tan(this->Options.preferredAngle * radian));
+  return MedianOr(std::move(depths), nearest / std::tan(this->Options.preferredAngle * degree));
 }
 
 // A grid over the image at the depth of the scene.
@@ -231,9 +229,9 @@ std::vector<int> ImageNeighborhoods::Candidates(std::size_t i) const
   std::vector<int> candidates = this->Index.Nearest(camera.Center(), 17);
   for (int k = 0; k < 16; ++k)
   {
-    const double angle = this->Options.preferredAngle * radian * (k < 8 ? 1 : 2);
-    const double distance = this->Depths[i] * std::tan(std::min(angle, 45 * radian));
-    const Eigen::Vector3d offset(std::cos(k * pi / 4), std::sin(k * pi / 4), 0);
+    const double angle = this->Options.preferredAngle * degree * (k < 8 ? 1 : 2);
+    const double distance = this->Depths[i] * std::tan(std::min(angle, 45 * degree));
+    const Eigen::Vector3d offset(std::cos(k * M_PI / 4), std::sin(k * M_PI / 4), 0);
     const std::vector<int> found =
       this->Index.Nearest(camera.Center() + distance * (camera.R.transpose() * offset), 4);
     candidates.insert(candidates.end(), found.begin(), found.end());
@@ -254,8 +252,8 @@ std::optional<Neighbor> ImageNeighborhoods::Judge(std::size_t i, int j) const
   neighbor.angle = this->AngleBetween(i, static_cast<std::size_t>(j));
   // Outside the angles' range, or so far before the reference that the epipole is in the image.
   const double sideways = baseline.head<2>().norm() / neighbor.distance;
-  if (!(neighbor.angle >= this->Options.minimumAngle * radian) ||
-    neighbor.angle > this->Options.maximumAngle * radian || sideways < LeastSideways(camera))
+  if (!(neighbor.angle >= this->Options.minimumAngle * degree) ||
+    neighbor.angle > this->Options.maximumAngle * degree || sideways < LeastSideways(camera))
   {
     return std::nullopt;
   }
@@ -274,7 +272,7 @@ std::optional<Neighbor> ImageNeighborhoods::Judge(std::size_t i, int j) const
 // preferred, and used where the set has nothing else.
 double ImageNeighborhoods::AngleQuality(double angle) const
 {
-  const double ratio = angle / (this->Options.preferredAngle * radian);
+  const double ratio = angle / (this->Options.preferredAngle * degree);
   return std::exp(-0.5 * std::pow(std::log(ratio) / std::log(2.2), 2));
 }
 

@@ -13,6 +13,8 @@
 namespace freespace
 {
 
+inline constexpr double degree = 3.14159265358979323846 / 180; ///< in radians
+
 /// An image that can confirm what another one, the reference, sees.
 struct Neighbor
 {

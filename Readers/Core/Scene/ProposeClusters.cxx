@@ -17,8 +17,6 @@ namespace freespace
 namespace
 {
 
-constexpr double radian = 3.14159265358979323846 / 180;
-
 // Weight of a triplet whose neighbours are not on opposite sides of the reference.
 constexpr double Bent = 0.3;
 
@@ -33,7 +31,7 @@ struct Pair
 {
   ProposedTriplet triplet;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero(); // from the first to the second, of length 1
-  double angle = 0;                                    // mean, radians
+  double angle = 0;                                    // mean, degrees
 };
 
 Pair MakePair(const Neighbor& a, const Neighbor& b)
@@ -45,7 +43,7 @@ Pair MakePair(const Neighbor& a, const Neighbor& b)
   const Neighbor& second = inOrder ? b : a;
   Pair pair;
   pair.triplet.neighbors = { first.image, second.image };
-  pair.triplet.angle = { first.angle / radian, second.angle / radian };
+  pair.triplet.angle = { first.angle / degree, second.angle / degree };
   pair.triplet.overlap = { first.overlap, second.overlap };
   pair.triplet.quality = std::sqrt(a.quality * b.quality);
   pair.direction = inOrder ? Eigen::Vector2d(-across) : across;
@@ -57,7 +55,7 @@ Pair MakePair(const Neighbor& a, const Neighbor& b)
 // opposite sides and as far away. Of two on one side, one must be much farther than the other.
 std::vector<Pair> PairsOf(const std::vector<Neighbor>& neighbors)
 {
-  const double oneSide = std::cos(30 * radian);
+  const double oneSide = std::cos(30 * degree);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < neighbors.size(); ++i)
   {
@@ -88,7 +86,7 @@ bool AreDisjoint(const ProposedTriplet& a, const ProposedTriplet& b)
 double Novelty(const Pair& first, const Pair& second)
 {
   const double cosine = first.direction.dot(second.direction);
-  if (std::abs(cosine) < std::cos(45 * radian))
+  if (std::abs(cosine) < std::cos(45 * degree))
   {
     return 1 - cosine * cosine;
   }
@@ -122,7 +120,7 @@ ProposedCluster BestCluster(std::size_t reference, const std::vector<Pair>& pair
       {
         best.triplets = { first.triplet, second.triplet };
         best.quality = first.triplet.quality + gain;
-        best.cross = std::abs(first.direction.dot(second.direction)) < std::cos(45 * radian);
+        best.cross = std::abs(first.direction.dot(second.direction)) < std::cos(45 * degree);
       }
     }
   }

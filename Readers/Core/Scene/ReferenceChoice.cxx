@@ -11,16 +11,14 @@ namespace freespace
 namespace
 {
 
-constexpr double radian = 3.14159265358979323846 / 180;
-
 // A reference that sees so much of what an image sees, and looks about the same way, can stand for it.
 constexpr double SameSight = 0.6;
-constexpr double SameWay = 30 * radian;
+constexpr double SameWay = 30 * degree;
 
 // How well the references chosen so far cover an image.
 struct Covered
 {
-  double nearest = std::numeric_limits<double>::infinity(); // angle to the nearest one, radians
+  double nearest = std::numeric_limits<double>::infinity(); // angle to the nearest one, degrees
   int references = 0;                                       // within the coverage angle
 };
 
@@ -58,8 +56,8 @@ std::vector<int> ChooseReferences(const ImageNeighborhoods& images,
     [](const PossibleReference& a, const PossibleReference& b) { return a.quality > b.quality; });
   const bool limited = options.coverage > 0 && options.separation > 0 &&
     possible.size() > static_cast<std::size_t>(options.smallSet);
-  const double farthest = options.coverageAngle * radian;
-  const double least = options.separation * radian;
+  const double farthest = options.coverageAngle * degree;
+  const double least = options.separation * degree;
   std::vector<Covered> covered(images.Size());
   std::vector<int> chosen;
   double separation = limited ? std::max(farthest, least) : least;

@@ -15,8 +15,6 @@ namespace freespace
 namespace
 {
 
-constexpr double radian = 3.14159265358979323846 / 180;
-
 // A link whose point its camera can have seen.
 bool IsInFront(const CalibratedImage& image, const Eigen::Vector3d& point)
 {
@@ -112,7 +110,7 @@ private:
     {
       return 0;
     }
-    return std::min(Median(std::move(known)), this->Options.minimumAngle * radian);
+    return std::min(Median(std::move(known)), this->Options.minimumAngle * M_PI / 180);
   }
 
   const Eigen::Vector3d& Position(std::size_t point) const

@@ -107,7 +107,7 @@ void EdgeStereoOptions::Check() const
   this->patches.Check();
 }
 
-EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
+EdgeView FindFeatures(EdgeStore& edges, ImagePyramids& photographs,
   const std::vector<CalibratedImage>& images, const Cluster& cluster,
   const EdgeStereoOptions& options, const CancellationFlag& stop)
 {
@@ -144,7 +144,7 @@ EdgeView FindFeatures(const Scene& scene, const std::vector<CalibratedImage>& im
 {
   options.Check();
   EdgeStore edges(scene, options.edges);
-  PhotographStore photographs(scene);
+  ImagePyramids photographs(scene);
   return FindFeatures(edges, photographs, images, cluster, options, stop);
 }
 

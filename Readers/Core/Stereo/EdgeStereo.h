@@ -8,7 +8,7 @@
 #include "Edges/EdgeTokens.h"
 #include "Matching/TrinocularMatcher.h"
 #include "Patches/PatchOptions.h"
-#include "Patches/PhotographStore.h"
+#include "Patches/ImagePyramids.h"
 #include "Scene/Scene.h"
 #include "Stereo/EdgeStore.h"
 
@@ -47,7 +47,7 @@ struct EdgeStereoOptions
 /// Throws Error naming the file or cluster: an image that is missing, unreadable or of another size
 /// than its camera's, an unknown image, a triplet without overlap; TooFewFeatures.
 /// Throws Aborted when the flag is set, at the next image.
-EdgeView FindFeatures(EdgeStore& edges, PhotographStore& photographs,
+EdgeView FindFeatures(EdgeStore& edges, ImagePyramids& photographs,
   const std::vector<CalibratedImage>& images, const Cluster& cluster,
   const EdgeStereoOptions& options, const CancellationFlag& stop = NeverCancelled);
 

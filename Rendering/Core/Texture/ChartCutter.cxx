@@ -13,8 +13,8 @@ namespace freespace
 namespace
 {
 
-constexpr double LeastCosine = 0.4;   // between a chart's direction and its triangles' normals
-constexpr double LongestSide = 65536; // of a triangle in texels; no texture holds a longer one
+constexpr double LeastChartCosine = 0.4; // between a chart's direction and its triangles' normals
+constexpr double LongestSide = 65536;    // of a triangle in texels; no texture holds a longer one
 
 std::uint64_t Cell(int column, int row)
 {
@@ -87,7 +87,7 @@ Chart ChartCutter::Grow(int seed)
 bool ChartCutter::Fits(const Chart& chart, int triangle)
 {
   const Eigen::Vector3d& normal = this->Surface.normals[triangle];
-  if (!(chart.sign * normal[chart.axis] > LeastCosine) && !chart.triangles.empty())
+  if (!(chart.sign * normal[chart.axis] > LeastChartCosine) && !chart.triangles.empty())
   {
     return false;
   }

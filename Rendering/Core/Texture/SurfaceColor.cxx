@@ -14,7 +14,7 @@ namespace freespace
 namespace
 {
 
-constexpr double LeastCosine = 0.05; // an image at grazing incidence is of no use
+constexpr double LeastGrazingCosine = 0.05; // an image at grazing incidence is of no use
 
 SurfaceColor::Color Interpolate(const Photograph& photograph, const Eigen::Vector2d& pixel)
 {
@@ -83,7 +83,7 @@ double SurfaceColor::Weight(std::size_t photograph, const Eigen::Vector3d& point
   const Camera& camera = this->Photographs[photograph].camera;
   const double depth = camera.Depth(point);
   const double cosine = normal.dot((camera.Center() - point).normalized());
-  if (!(depth > 0) || !(cosine > LeastCosine))
+  if (!(depth > 0) || !(cosine > LeastGrazingCosine))
   {
     return 0;
   }

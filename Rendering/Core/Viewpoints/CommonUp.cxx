@@ -11,9 +11,8 @@ namespace freespace
 namespace
 {
 
-constexpr double degree = M_PI / 180;
-constexpr double steadiness = 6 * degree; // of the roll of a camera in the hand
-constexpr std::size_t mostCameras = 100;  // heeded, evenly taken
+constexpr double steadiness = 6 * M_PI / 180; // of the roll of a camera in the hand
+constexpr std::size_t mostCameras = 100;      // heeded, evenly taken
 
 /// A way to hold a camera, by where up is in the image, from its own up towards its right.
 struct Hold

@@ -74,7 +74,7 @@ public:
   std::vector<PatchFeature> Find(
     const std::vector<Vector2d>& seeds = {}, const CancellationFlag& stop = NeverCancelled) const
   {
-    PhotographStore images(this->Source);
+    ImagePyramids images(this->Source);
     return FindPatches(this->Features, seeds, this->Images[0],
       { this->Images.begin() + 1, this->Images.end() }, images, this->Options, stop);
   }

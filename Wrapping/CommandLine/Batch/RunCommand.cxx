@@ -26,7 +26,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-struct Settings
+struct RunSettings
 {
   std::string batch;
   std::vector<std::string> scenes;
@@ -35,7 +35,7 @@ struct Settings
   BatchOptions options;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, RunSettings& settings)
 {
   command.add_option("batch", settings.batch, "The steps, as JSON")
     ->required()
@@ -86,7 +86,7 @@ std::string ValueIn(const std::filesystem::path& folder, const BatchFile::Column
 }
 
 std::vector<std::vector<std::string>> RowsOf(
-  const Settings& settings, const BatchFile& batch, const std::vector<SceneResult>& results)
+  const RunSettings& settings, const BatchFile& batch, const std::vector<SceneResult>& results)
 {
   std::vector<std::vector<std::string>> rows = { { "scene", "steps", "seconds", "MiB" } };
   for (const BatchFile::Column& column : batch.table)
@@ -122,7 +122,8 @@ std::string CsvOf(const std::vector<std::vector<std::string>>& rows)
   return text;
 }
 
-void RunBatch(Session& session, const Settings& settings, const std::vector<std::string>& commands)
+void RunBatch(
+  Session& session, const RunSettings& settings, const std::vector<std::string>& commands)
 {
   const BatchFile batch = ReadBatch(settings.batch, commands);
   const std::vector<BatchScene> scenes = FindScenes(settings.scenes);
@@ -167,7 +168,7 @@ std::vector<std::string> CommandsOf(const CLI::App& program)
 
 void AddRunCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<RunSettings>();
   CLI::App* command = program.add_subcommand(
     "run", "Run the steps of a batch over many scenes, resuming where it was stopped");
   AddOptions(*command, *settings);

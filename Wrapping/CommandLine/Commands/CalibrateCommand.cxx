@@ -18,7 +18,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct CalibrateSettings
 {
   std::vector<std::string> pictures;
   std::string board;
@@ -27,7 +27,7 @@ struct Settings
   bool text = false;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, CalibrateSettings& settings)
 {
   command.add_option("images", settings.pictures, "Images of the board")
     ->required()
@@ -49,7 +49,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   command.add_flag("--text", settings.text, "Write .txt rather than .bin files");
 }
 
-void Calibrate(Session& session, const Settings& settings)
+void Calibrate(Session& session, const CalibrateSettings& settings)
 {
   vtkNew<vtkBoardCalibration> calibration;
   for (const std::string& picture : settings.pictures)
@@ -75,7 +75,7 @@ void Calibrate(Session& session, const Settings& settings)
 
 void AddCalibrateCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<CalibrateSettings>();
   CLI::App* command =
     program.add_subcommand("calibrate", "Find cameras from images of a calibration board");
   AddOptions(*command, *settings);

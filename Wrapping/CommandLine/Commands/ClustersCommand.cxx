@@ -18,7 +18,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct ClustersSettings
 {
   std::string scene;
   std::string images;
@@ -26,7 +26,7 @@ struct Settings
   ClusterChoice clusters;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, ClustersSettings& settings)
 {
   command.add_option("scene", settings.scene, "The scene.json, or a structure-from-motion model")
     ->required()
@@ -39,7 +39,7 @@ void AddOptions(CLI::App& command, Settings& settings)
   settings.clusters.AddOptions(command, "Clusters");
 }
 
-void ProposeClusters(Session& session, const Settings& settings)
+void ProposeClusters(Session& session, const ClustersSettings& settings)
 {
   if (!settings.output.empty())
   {
@@ -71,7 +71,7 @@ void ProposeClusters(Session& session, const Settings& settings)
 
 void AddClustersCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ClustersSettings>();
   CLI::App* command =
     program.add_subcommand("clusters", "Choose the clusters of images, print and save the choice");
   AddOptions(*command, *settings);

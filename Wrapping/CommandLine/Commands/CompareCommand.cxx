@@ -28,7 +28,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct CompareSettings
 {
   std::string surface;
   std::string reference;
@@ -42,7 +42,7 @@ struct Settings
 constexpr int Directions[] = { vtkSurfaceComparison::SurfaceToReference,
   vtkSurfaceComparison::ReferenceToSurface };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, CompareSettings& settings)
 {
   command.add_option("mesh", settings.surface, "The surface (.ply .stl .obj .vtp)")
     ->required()
@@ -85,7 +85,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->type_name("OUT.ply");
 }
 
-void Check(const Settings& settings)
+void Check(const CompareSettings& settings)
 {
   for (const std::string& file : { settings.json, settings.histogram })
   {
@@ -129,7 +129,7 @@ std::string TextOf(vtkSurfaceComparison* comparison)
   return both.Text() + "\n" + shares.Text();
 }
 
-nlohmann::ordered_json JsonOf(vtkSurfaceComparison* comparison, const Settings& settings)
+nlohmann::ordered_json JsonOf(vtkSurfaceComparison* comparison, const CompareSettings& settings)
 {
   nlohmann::ordered_json json;
   json["mesh"] = settings.surface;
@@ -182,7 +182,7 @@ void Color(vtkPolyData* surface, double greatest)
   surface->GetPointData()->AddArray(rgb);
 }
 
-void Compare(Session& session, const Settings& settings)
+void Compare(Session& session, const CompareSettings& settings)
 {
   Check(settings);
   vtkNew<vtkSurfaceComparison> comparison;
@@ -220,7 +220,7 @@ void Compare(Session& session, const Settings& settings)
 
 void AddCompareCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<CompareSettings>();
   CLI::App* command =
     program.add_subcommand("compare", "Compare a surface with a reference: distances both ways");
   AddOptions(*command, *settings);

@@ -19,7 +19,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct ContourSettings
 {
   std::string maps;
   std::string output;
@@ -28,7 +28,7 @@ struct Settings
 
 // Each of the processes that mpiexec started makes a piece, the first one joins and writes them. All
 // read the maps for themselves.
-void Contour(Session& session, const Settings& settings)
+void Contour(Session& session, const ContourSettings& settings)
 {
   Ranks ranks;
   vtkSmartPointer<vtkMultiBlockDataSet> maps;
@@ -71,7 +71,7 @@ void Contour(Session& session, const Settings& settings)
 
 void AddContourCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ContourSettings>();
   CLI::App* command =
     program.add_subcommand("contour", "Make the surface: the boundary of the free space");
   command->add_option("maps", settings->maps, "What 'triangulate' wrote")

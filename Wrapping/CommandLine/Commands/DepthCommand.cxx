@@ -18,7 +18,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct DepthSettings
 {
   std::vector<std::string> maps;
   std::string scene;
@@ -26,7 +26,7 @@ struct Settings
   DepthOptions depth;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, DepthSettings& settings)
 {
   DepthOptions& depth = settings.depth;
   command
@@ -76,7 +76,7 @@ void AddOptions(CLI::App& command, Settings& settings)
     ->capture_default_str();
 }
 
-void Depth(Session& session, const Settings& settings)
+void Depth(Session& session, const DepthSettings& settings)
 {
   CheckViewsName(settings.output);
   vtkNew<vtkDepthMapReader> reader;
@@ -104,7 +104,7 @@ void Depth(Session& session, const Settings& settings)
 
 void AddDepthCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<DepthSettings>();
   CLI::App* command =
     program.add_subcommand("depth", "Make the pixels of depth maps and range images features");
   AddOptions(*command, *settings);

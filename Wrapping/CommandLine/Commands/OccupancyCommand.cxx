@@ -46,7 +46,7 @@ private:
   int Kept;
 };
 
-struct Settings
+struct OccupancySettings
 {
   std::string maps;
   std::string output;
@@ -58,7 +58,7 @@ struct Settings
 
 void AddOccupancyCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<OccupancySettings>();
   CLI::App* command =
     program.add_subcommand("occupancy", "Write free, occupied and unknown space as an OctoMap");
   command->add_option("maps", settings->maps, "The disparity maps")

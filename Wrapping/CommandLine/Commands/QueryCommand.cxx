@@ -27,7 +27,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct QuerySettings
 {
   std::string maps;
   std::string points;
@@ -54,7 +54,7 @@ std::vector<double> ReadTable(Session& session, const std::string& name, std::si
   return ReadNumberTable(file, fileName, columns, [&session] { session.ThrowIfFailed(); });
 }
 
-void TellPoints(Session& session, vtkFreespaceUnion* phi, const Settings& settings)
+void TellPoints(Session& session, vtkFreespaceUnion* phi, const QuerySettings& settings)
 {
   const std::vector<double> numbers = ReadTable(session, settings.points, 3);
   vtkNew<vtkPoints> points;
@@ -98,7 +98,7 @@ void TellSegments(Session& session, vtkFreespaceUnion* phi, const std::string& f
 
 void AddQueryCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<QuerySettings>();
   CLI::App* command =
     program.add_subcommand("query", "Query which points and segments lie in free space");
   command->add_option("maps", settings->maps, "What 'triangulate' wrote")

@@ -21,7 +21,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct ReconstructSettings
 {
   std::string scene;
   std::string output;
@@ -31,7 +31,7 @@ struct Settings
   ContourStage contour;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, ReconstructSettings& settings)
 {
   command
     .add_option("scene", settings.scene,
@@ -60,7 +60,7 @@ std::array<int, 2> SizeLike(const Camera& camera)
     std::max(1, static_cast<int>(scale * camera.height)) };
 }
 
-void Reconstruct(Session& session, const Settings& settings)
+void Reconstruct(Session& session, const ReconstructSettings& settings)
 {
   CheckSurfaceName(settings.output);
   if (!settings.picture.empty())
@@ -86,7 +86,7 @@ void Reconstruct(Session& session, const Settings& settings)
 
 void AddReconstructCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ReconstructSettings>();
   CLI::App* command = program.add_subcommand("reconstruct",
     "Make a surface from images or a structure-from-motion model: all stages in one");
   AddOptions(*command, *settings);

@@ -16,7 +16,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct RefineSettings
 {
   std::string scene;
   std::string output;
@@ -24,7 +24,7 @@ struct Settings
   bool text = false;
 };
 
-void Refine(Session& session, const Settings& settings)
+void Refine(Session& session, const RefineSettings& settings)
 {
   const Scene scene = ReadScene(settings.scene);
   const SparseModel model = ReadSceneModel(scene);
@@ -50,7 +50,7 @@ void Refine(Session& session, const Settings& settings)
 
 void AddRefineCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<RefineSettings>();
   CLI::App* command =
     program.add_subcommand("refine", "Correct the cameras of a scene by the edges of its images");
   command->add_option("scene", settings->scene, "The scene.json")

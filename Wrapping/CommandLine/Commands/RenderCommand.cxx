@@ -25,7 +25,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct RenderSettings
 {
   std::string mesh;
   std::string output;
@@ -39,7 +39,7 @@ struct Settings
   bool observed = false;
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, RenderSettings& settings)
 {
   command.add_option("mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
     ->required()
@@ -83,7 +83,7 @@ void AddOptions(CLI::App& command, Settings& settings)
 }
 
 vtkSmartPointer<vtkPolyData> FindView(
-  Session& session, const Settings& settings, vtkPolyData* surface)
+  Session& session, const RenderSettings& settings, vtkPolyData* surface)
 {
   const std::string& source = settings.scene.empty() ? settings.model : settings.scene;
   if (source.empty())
@@ -122,7 +122,7 @@ void LeaveOutUnseen(vtkPolyData* surface, const std::string& fileName)
   KeepObserved(surface);
 }
 
-void Render(Session& session, const Settings& settings)
+void Render(Session& session, const RenderSettings& settings)
 {
   const auto surface = ReadSurface(session, settings.mesh);
   if (settings.observed)
@@ -141,7 +141,7 @@ void Render(Session& session, const Settings& settings)
 
 void AddRenderCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<RenderSettings>();
   CLI::App* command = program.add_subcommand("render", "Make a picture of a surface");
   AddOptions(*command, *settings);
   command->footer(

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 constexpr int mostViewsShown = 12;
 
-struct Settings
+struct ReportSettings
 {
   std::string scene;
   std::string folder;
@@ -74,7 +74,7 @@ struct Surroundings
   }
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, ReportSettings& settings)
 {
   command
     .add_option("scene", settings.scene,
@@ -108,7 +108,7 @@ void AddOptions(CLI::App& command, Settings& settings)
 }
 
 // Of a model, with the images that are asked for. Throws Error where none of them is there.
-Scene ReadSceneForReport(const Settings& settings)
+Scene ReadSceneForReport(const ReportSettings& settings)
 {
   Scene scene = ReadScene(settings.scene);
   if (!FeatureStage::IsModel(settings.scene))
@@ -216,7 +216,7 @@ std::array<std::uint8_t, 3> ViewerColor(std::size_t group, std::size_t count)
 }
 
 void AddModel(
-  Session& session, const Settings& settings, const Surroundings& around, Report& report)
+  Session& session, const ReportSettings& settings, const Surroundings& around, Report& report)
 {
   std::vector<ViewerCameras> cameras;
   for (std::size_t i = 0; i < around.groups.size(); ++i)
@@ -235,7 +235,7 @@ void AddModel(
     : "All " + FormatCount(model.triangles) + " triangles, with a baked texture.";
 }
 
-void AddFigures(Session& session, const Settings& settings, const Surroundings& around,
+void AddFigures(Session& session, const ReportSettings& settings, const Surroundings& around,
   const std::string& figures, Report& report)
 {
   const auto features = WithoutSilhouettes(settings.stages.Features());
@@ -258,20 +258,20 @@ void AddFigures(Session& session, const Settings& settings, const Surroundings& 
     TexturedFigures(session, settings.stages.Surface(), around.photographs, around.novel, figures);
 }
 
-std::string TruthFile(const Settings& settings)
+std::string TruthFile(const ReportSettings& settings)
 {
   const fs::path beside = fs::path(settings.scene).parent_path() / "truth" / "surface.ply";
   return settings.truth.empty() && IsFile(beside) ? beside.string() : settings.truth;
 }
 
-vtkSmartPointer<vtkPolyData> ReadTruth(Session& session, const Settings& settings)
+vtkSmartPointer<vtkPolyData> ReadTruth(Session& session, const ReportSettings& settings)
 {
   const std::string file = TruthFile(settings);
   return file.empty() ? nullptr : ReadSurface(session, file);
 }
 
 void AddTruth(
-  const Settings& settings, const Surroundings& around, vtkPolyData* truth, Report& report)
+  const ReportSettings& settings, const Surroundings& around, vtkPolyData* truth, Report& report)
 {
   if (truth)
   {
@@ -288,7 +288,7 @@ std::string Line(std::vector<std::string> words, const std::vector<std::string>&
   return ShellCommand(words);
 }
 
-std::vector<ReportCommand> Commands(const Settings& settings, const CLI::App& command)
+std::vector<ReportCommand> Commands(const ReportSettings& settings, const CLI::App& command)
 {
   const std::string& scene = settings.scene;
   const std::string& folder = settings.folder;
@@ -342,7 +342,7 @@ std::string TitleOf(const std::string& scene)
   return path.stem().string();
 }
 
-void AddNumbers(const Settings& settings, const Surroundings& around, Report& report)
+void AddNumbers(const ReportSettings& settings, const Surroundings& around, Report& report)
 {
   const StageCache& stages = settings.stages;
   const long long triangles = stages.Surface()->GetNumberOfPolys();
@@ -372,7 +372,8 @@ void AddNumbers(const Settings& settings, const Surroundings& around, Report& re
   }
 }
 
-void AddTimes(const Settings& settings, double modelSeconds, double figureSeconds, Report& report)
+void AddTimes(
+  const ReportSettings& settings, double modelSeconds, double figureSeconds, Report& report)
 {
   std::vector<StageTime> times = settings.stages.Times();
   double reconstruction = 0;
@@ -406,7 +407,7 @@ double SecondsOf(const Work& work)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void MakeReport(Session& session, Settings& settings, const CLI::App& command)
+void MakeReport(Session& session, ReportSettings& settings, const CLI::App& command)
 {
   Scene scene = ReadSceneForReport(settings);
   const std::string file = (fs::path(settings.folder) / "index.html").string();
@@ -439,7 +440,7 @@ void MakeReport(Session& session, Settings& settings, const CLI::App& command)
 
 void AddReportCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ReportSettings>();
   CLI::App* command = program.add_subcommand(
     "report", "Reconstruct a scene and write a report, one page that needs no network");
   AddOptions(*command, *settings);

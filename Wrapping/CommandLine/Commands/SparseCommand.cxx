@@ -15,7 +15,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct SparseSettings
 {
   std::string model;
   std::string output;
@@ -26,7 +26,7 @@ struct Settings
 
 void AddSparseCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<SparseSettings>();
   CLI::App* command =
     program.add_subcommand("sparse", "Take features from a structure-from-motion model");
   command

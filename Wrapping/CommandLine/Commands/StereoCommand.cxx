@@ -19,7 +19,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct StereoSettings
 {
   std::string scene;
   std::string output;
@@ -27,7 +27,7 @@ struct Settings
   StereoStage stereo;
 };
 
-void FindFeatures(Session& session, const Settings& settings)
+void FindFeatures(Session& session, const StereoSettings& settings)
 {
   CheckViewsName(settings.output);
   const auto features = settings.stereo.Run(session, settings.scene);
@@ -48,7 +48,7 @@ void FindFeatures(Session& session, const Settings& settings)
 
 void AddStereoCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<StereoSettings>();
   CLI::App* command =
     program.add_subcommand("stereo", "Find the features of each cluster of images");
   command->add_option("scene", settings->scene, "The scene.json")

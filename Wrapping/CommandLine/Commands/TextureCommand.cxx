@@ -29,7 +29,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct TextureSettings
 {
   std::string mesh;
   std::string scene;
@@ -39,7 +39,7 @@ struct Settings
   double memoryLimit = -1; // below 0: a share of the machine's
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, TextureSettings& settings)
 {
   command.add_option("mesh", settings.mesh, "The surface (.ply .stl .obj .vtp)")
     ->required()
@@ -68,7 +68,7 @@ void AddOptions(CLI::App& command, Settings& settings)
 }
 
 // Before the images are read. Throws Error where they alone exceed the limit.
-void CheckMemory(const Settings& settings, double limit)
+void CheckMemory(const TextureSettings& settings, double limit)
 {
   const Scene scene = ReadScene(settings.scene);
   double pixels = 0;
@@ -88,7 +88,7 @@ void CheckMemory(const Settings& settings, double limit)
   }
 }
 
-void Texture(Session& session, const Settings& settings)
+void Texture(Session& session, const TextureSettings& settings)
 {
   if (!vtkTexturedSurfaceWriter::CanWriteFile(settings.output))
   {
@@ -130,7 +130,7 @@ void Texture(Session& session, const Settings& settings)
 
 void AddTextureCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<TextureSettings>();
   CLI::App* command =
     program.add_subcommand("texture", "Give a surface a texture that other programs can show");
   AddOptions(*command, *settings);

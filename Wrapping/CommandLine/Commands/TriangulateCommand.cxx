@@ -15,7 +15,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct TriangulateSettings
 {
   std::string features;
   std::string output;
@@ -26,7 +26,7 @@ struct Settings
 
 void AddTriangulateCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<TriangulateSettings>();
   CLI::App* command =
     program.add_subcommand("triangulate", "Make a disparity map of each view's features");
   command->add_option("features", settings->features, "What 'stereo' wrote")

@@ -36,7 +36,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-struct Settings
+struct ViewSettings
 {
   std::string scene;
   std::string mesh;
@@ -51,7 +51,7 @@ struct Settings
   bool IsFolder() const { return !this->model.empty() || (this->turntable > 0 && !this->IsFilm()); }
 };
 
-void AddOptions(CLI::App& command, Settings& settings)
+void AddOptions(CLI::App& command, ViewSettings& settings)
 {
   command
     .add_option("scene", settings.scene,
@@ -108,7 +108,7 @@ std::vector<Shot> ShotsOfModel(vtkMultiBlockDataSet* cameras, const fs::path& fo
 }
 
 std::vector<Shot> ShotsOfTurntable(
-  vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const Settings& settings)
+  vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const ViewSettings& settings)
 {
   std::vector<Camera> known;
   std::vector<Eigen::Vector3d> points;
@@ -131,14 +131,15 @@ std::vector<Shot> ShotsOfTurntable(
   return shots;
 }
 
-Shot ShotOfDefault(vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const Settings& settings)
+Shot ShotOfDefault(
+  vtkMultiBlockDataSet* cameras, vtkPolyData* surface, const ViewSettings& settings)
 {
   View view;
   view.camera = ViewpointOfCameras(cameras, surface, settings.scene);
   return { BlockFromView(view), settings.output };
 }
 
-std::vector<Shot> FindShots(Session& session, vtkPolyData* surface, const Settings& settings)
+std::vector<Shot> FindShots(Session& session, vtkPolyData* surface, const ViewSettings& settings)
 {
   vtkNew<vtkCameraReader> cameras;
   cameras->SetFileName(settings.model.empty() ? settings.scene : settings.model);
@@ -176,7 +177,7 @@ bool LooksLikeAFile(const std::string& folder)
   return !IsFolder(folder) && endings.count(LowerCaseExtension(folder)) > 0;
 }
 
-void CheckOutput(const Settings& settings)
+void CheckOutput(const ViewSettings& settings)
 {
   if (settings.IsFilm())
   {
@@ -195,7 +196,7 @@ void CheckOutput(const Settings& settings)
   }
 }
 
-void ViewScene(Session& session, const Settings& settings)
+void ViewScene(Session& session, const ViewSettings& settings)
 {
   CheckOutput(settings);
   const auto surface = ReadSurface(session, settings.mesh);
@@ -238,7 +239,7 @@ void ViewScene(Session& session, const Settings& settings)
 
 void AddViewCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ViewSettings>();
   CLI::App* command =
     program.add_subcommand("view", "Make pictures of a surface in the colours of the images");
   AddOptions(*command, *settings);

@@ -25,7 +25,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct ExportSettings
 {
   std::string input;
   std::string output;
@@ -73,7 +73,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> ReadCameras(Session& session, const std::s
   return reader->GetOutput();
 }
 
-void Export(Session& session, const Settings& settings)
+void Export(Session& session, const ExportSettings& settings)
 {
   const bool isViews = LowerCaseExtension(settings.input) == ".vtm";
   const std::string what = !settings.what.empty() ? settings.what
@@ -111,7 +111,7 @@ void Export(Session& session, const Settings& settings)
 
 void AddExportCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ExportSettings>();
   CLI::App* command =
     program.add_subcommand("export", "Write features, their chains or cameras for other programs");
   command

@@ -44,7 +44,7 @@ std::string Dashed(std::string name)
   return name;
 }
 
-std::string Entry(const OptionText& option)
+std::string ManEntry(const OptionText& option)
 {
   std::string entry = ".TP\n";
   for (std::size_t i = 0; i < option.names.size(); ++i)
@@ -56,12 +56,12 @@ std::string Entry(const OptionText& option)
   return entry + "\n" + Escaped(option.description) + "\n";
 }
 
-std::string Section(const std::string& title, const std::vector<OptionText>& options)
+std::string ManSection(const std::string& title, const std::vector<OptionText>& options)
 {
   std::string section = options.empty() ? "" : ".SS \"" + Escaped(title) + "\"\n";
   for (const OptionText& option : options)
   {
-    section += Entry(option);
+    section += ManEntry(option);
   }
   return section;
 }
@@ -122,12 +122,12 @@ std::string ManPage(const CommandText& text, const std::string& version)
   page += ".SH SYNOPSIS\n.B " + Escaped(text.Usage()) + "\n";
   page += ".SH DESCRIPTION\n" + Escaped(text.description) +
     (text.description.empty() || text.description.back() == '.' ? "" : ".") + "\n";
-  page += ".SH OPTIONS\n" + Section("Arguments", text.positionals);
+  page += ".SH OPTIONS\n" + ManSection("Arguments", text.positionals);
   for (const OptionGroupText& group : text.groups)
   {
-    page += Section(group.title, group.options);
+    page += ManSection(group.title, group.options);
   }
-  page += Section("Options of every command", text.shared);
+  page += ManSection("Options of every command", text.shared);
   for (const auto& [command, what] : text.commands)
   {
     page += command == text.commands.front().first ? ".SH COMMANDS\n" : "";

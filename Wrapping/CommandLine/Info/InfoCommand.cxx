@@ -15,12 +15,12 @@ namespace freespace
 
 void AddInfoCommand(CLI::App& program, Session& session)
 {
-  struct Settings
+  struct InfoSettings
   {
     std::string file;
     std::string json;
   };
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<InfoSettings>();
   CLI::App* command = program.add_subcommand(
     "info", "Print what a file holds: a surface, features, a scene, a model");
   command

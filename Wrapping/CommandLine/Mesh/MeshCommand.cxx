@@ -16,7 +16,7 @@ namespace freespace
 namespace
 {
 
-struct Settings
+struct MeshSettings
 {
   std::string input;
   std::string output;
@@ -28,7 +28,8 @@ std::string Counts(vtkPolyData* surface)
     std::to_string(surface->GetNumberOfPolys()) + " triangles";
 }
 
-void Edit(Session& session, const Settings& settings, const std::vector<MeshOperation>& operations)
+void Edit(
+  Session& session, const MeshSettings& settings, const std::vector<MeshOperation>& operations)
 {
   CheckSurfaceName(settings.output);
   for (const MeshOperation& operation : operations)
@@ -53,7 +54,7 @@ void Edit(Session& session, const Settings& settings, const std::vector<MeshOper
 
 void AddMeshCommand(CLI::App& program, Session& session)
 {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<MeshSettings>();
   CLI::App* command = program.add_subcommand(
     "mesh", "Edit a surface: crop, clean, smooth, decimate, fill, transform, colour");
   command->add_option("mesh", settings->input, "The surface (.ply .stl .obj .vtp)")

@@ -18,7 +18,7 @@ namespace
 
 using Function = vtkSmartPointer<vtkPolyData> (*)(Session&, const std::string&, vtkPolyData*);
 
-struct Kind
+struct OperationKind
 {
   const char* name;
   const char* type; ///< of the value; empty: none
@@ -28,10 +28,10 @@ struct Kind
 };
 
 // The numbers' ranges are those of VTK's filters.
-const std::vector<Kind>& Kinds()
+const std::vector<OperationKind>& Kinds()
 {
-  static const std::vector<Kind> kinds = { { "crop", "x0,x1,y0,y1,z0,z1", "Crop to a box", BoxFault,
-                                             Crop },
+  static const std::vector<OperationKind> kinds = { { "crop", "x0,x1,y0,y1,z0,z1", "Crop to a box",
+                                                      BoxFault, Crop },
     { "largest", "N", "Keep the N connected components with the most triangles", CountFault,
       KeepLargest },
     { "crumbs", "AREA", "Drop connected components of less area", NumberFault, DropCrumbs },
@@ -55,9 +55,9 @@ const std::vector<Kind>& Kinds()
   return kinds;
 }
 
-const Kind& KindOf(const MeshOperation& operation)
+const OperationKind& OperationKindOf(const MeshOperation& operation)
 {
-  for (const Kind& kind : Kinds())
+  for (const OperationKind& kind : Kinds())
   {
     if (kind.name == operation.name)
     {
@@ -71,7 +71,7 @@ const Kind& KindOf(const MeshOperation& operation)
 
 void AddMeshOperations(CLI::App& command)
 {
-  for (const Kind& kind : Kinds())
+  for (const OperationKind& kind : Kinds())
   {
     const std::string names = std::string("--") + kind.name +
       (kind.name == std::string("colour-from") ? ",--color-from" : "");
@@ -102,7 +102,7 @@ std::vector<MeshOperation> OperationsInOrder(const CLI::App& command)
   std::map<const CLI::Option*, std::size_t> seen;
   for (const CLI::Option* option : command.parse_order())
   {
-    for (const Kind& kind : Kinds())
+    for (const OperationKind& kind : Kinds())
     {
       if (option->check_lname(kind.name))
       {
@@ -125,7 +125,7 @@ void CheckOperation(const MeshOperation& operation)
 vtkSmartPointer<vtkPolyData> Operate(
   Session& session, const MeshOperation& operation, vtkPolyData* surface)
 {
-  return KindOf(operation).function(session, operation.value, surface);
+  return OperationKindOf(operation).function(session, operation.value, surface);
 }
 
 }

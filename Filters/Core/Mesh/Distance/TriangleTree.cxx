@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 namespace
 {
 
-constexpr std::size_t LeafSize = 2;     // triangles
+constexpr std::size_t LeafTriangles = 2;
 constexpr std::size_t BlockSize = 1024; // points that follow each other on one thread
 constexpr int CurveBits = 63;
-constexpr float Infinity = std::numeric_limits<float>::infinity();
+constexpr float Unbounded = std::numeric_limits<float>::infinity();
 // What the squared distance to a box may be off for single precision, as a share of it.
 constexpr float Rounding = 1e-6F;
 
@@ -139,7 +139,7 @@ void TriangleTree::Sort(const TriangleMesh& mesh, const ParallelFor& parallelFor
   SortByKey(items, CurveBits);
   this->Indices.resize(items.size());
   this->Triangles.resize(items.size());
-  while ((items.size() >> (2 * this->Depth)) >= LeafSize)
+  while ((items.size() >> (2 * this->Depth)) >= LeafTriangles)
   {
     ++this->Depth;
   }
@@ -167,7 +167,7 @@ void TriangleTree::Sort(const TriangleMesh& mesh, const ParallelFor& parallelFor
 
 void TriangleTree::SetBox(std::size_t node, int level, std::size_t numberInLevel, int child)
 {
-  Eigen::Array3f low = Eigen::Array3f::Constant(Infinity), high = -low;
+  Eigen::Array3f low = Eigen::Array3f::Constant(Unbounded), high = -low;
   if (level + 1 < this->Depth)
   {
     const Node& inner = this->Nodes[4 * node + 1 + child];

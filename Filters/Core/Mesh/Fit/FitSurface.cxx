@@ -24,7 +24,7 @@ namespace
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
 // Lower bound of the cosine of incidence in the deviation of a feature.
-constexpr double LeastCosine = 0.15;
+constexpr double LeastSightCosine = 0.15;
 
 // Bounds of the deviations of features, in units of the typical one.
 constexpr double LeastDeviation = 0.2;
@@ -35,7 +35,7 @@ constexpr double DeviationOfMedian = 1.5;
 
 // Normals around a vertex that differ by more than this share of them give it another freedom: two
 // planes do that turn by 26 degrees.
-constexpr double LeastShare = 0.05;
+constexpr double LeastEigenvalue = 0.05;
 
 // Standard deviation of the prior that holds a vertex at its position, in median edges.
 constexpr double AnchorEdges = 1.0;
@@ -151,7 +151,7 @@ void SurfaceFitter::FindContacts(const CancellationFlag& stop)
         contact.distance = normal.dot(feature.point - weights[0] * this->Points[a] -
           weights[1] * this->Points[b] - weights[2] * this->Points[c]);
         contact.deviation = this->RelativeDeviation(feature) *
-          std::max(std::abs(normal.dot(feature.sight)), LeastCosine * depth);
+          std::max(std::abs(normal.dot(feature.sight)), LeastSightCosine * depth);
       }
     });
   ThrowIfCancelled(stop);
@@ -204,7 +204,7 @@ std::vector<VertexSystem::Basis> SurfaceFitter::FindBases() const
         VertexSystem::Basis& basis = bases[v];
         for (int i = 2; i >= 0; --i)
         {
-          if (i == 2 || solver.eigenvalues()[i] > LeastShare)
+          if (i == 2 || solver.eigenvalues()[i] > LeastEigenvalue)
           {
             basis.directions.col(basis.freedom++) = solver.eigenvectors().col(i);
           }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef freespace_PhotographStore_h
-#define freespace_PhotographStore_h
+#ifndef freespace_ImagePyramids_h
+#define freespace_ImagePyramids_h
 
 #include "Images/ImageCache.h"
 #include "Scene/Scene.h"
@@ -15,7 +15,7 @@ namespace freespace
 {
 
 /// An image without the lens's distortion, ready to be compared with others.
-struct Photograph
+struct ImagePyramid
 {
   cv::Mat3b color; ///< blue, green, red
   cv::Mat1b mask;  ///< 0 where the image is to be ignored; empty without a mask
@@ -25,20 +25,20 @@ struct Photograph
 
 /// The images of a scene. An image belongs to several clusters: the most recently used ones are kept, as far
 /// as memory allows. Thread-safe.
-class PhotographStore
+class ImagePyramids
 {
 public:
   /// Keeps up to `mostPixels` pixels (of 8 bytes) of the most recently used images.
-  explicit PhotographStore(const Scene& scene, std::size_t mostPixels = std::size_t(1) << 26);
+  explicit ImagePyramids(const Scene& scene, std::size_t mostPixels = std::size_t(1) << 26);
 
   /// Throws Error naming the file: missing, unreadable or of another size than the camera's.
-  std::shared_ptr<const Photograph> Find(const CalibratedImage& image);
+  std::shared_ptr<const ImagePyramid> Find(const CalibratedImage& image);
 
 private:
-  Photograph Read(const CalibratedImage& image) const;
+  ImagePyramid Read(const CalibratedImage& image) const;
 
   Scene Source; // for its folders
-  ImageCache<Photograph> Cache;
+  ImageCache<ImagePyramid> Cache;
 };
 
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Patches/PhotographStore.h"
+#include "Patches/ImagePyramids.h"
 
 #include "Images/ImageMask.h"
 #include "Images/UndistortedImage.h"
@@ -17,51 +17,51 @@ constexpr double Smoothing = 0.7; // sigma, pixels
 
 constexpr int Levels = 2;
 
-Photograph MakePhotograph(const cv::Mat& color)
+ImagePyramid MakePyramid(const cv::Mat& color)
 {
-  Photograph photograph;
-  photograph.color = color;
+  ImagePyramid pyramid;
+  pyramid.color = color;
   cv::Mat grey, first;
   cv::cvtColor(color, grey, cv::COLOR_BGR2GRAY);
   grey.convertTo(first, CV_32F);
   cv::GaussianBlur(first, first, cv::Size(), Smoothing);
-  photograph.levels.push_back(first);
+  pyramid.levels.push_back(first);
   for (int level = 1; level < Levels; ++level)
   {
     cv::Mat half;
-    cv::resize(photograph.levels.back(), half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
-    photograph.levels.push_back(half);
+    cv::resize(pyramid.levels.back(), half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
+    pyramid.levels.push_back(half);
   }
-  return photograph;
+  return pyramid;
 }
 
 }
 
-PhotographStore::PhotographStore(const Scene& scene, std::size_t mostPixels)
+ImagePyramids::ImagePyramids(const Scene& scene, std::size_t mostPixels)
   : Source(scene)
   , Cache(mostPixels)
 {
 }
 
-std::shared_ptr<const Photograph> PhotographStore::Find(const CalibratedImage& image)
+std::shared_ptr<const ImagePyramid> ImagePyramids::Find(const CalibratedImage& image)
 {
   return this->Cache.Find(
     image, [&] { return this->Read(image); },
-    [](const Photograph& photograph) { return photograph.color.total(); });
+    [](const ImagePyramid& pyramid) { return pyramid.color.total(); });
 }
 
-Photograph PhotographStore::Read(const CalibratedImage& image) const
+ImagePyramid ImagePyramids::Read(const CalibratedImage& image) const
 {
-  Photograph photograph =
-    MakePhotograph(Undistorted(this->Source.Pixels(image), image, cv::INTER_CUBIC));
+  ImagePyramid pyramid =
+    MakePyramid(Undistorted(this->Source.Pixels(image), image, cv::INTER_CUBIC));
   const std::string path = this->Source.MaskPath(image.file);
   const cv::Mat mask =
     path.empty() ? cv::Mat() : LoadMask(path, image.camera.width, image.camera.height);
   if (!mask.empty())
   {
-    photograph.mask = Undistorted(mask, image, cv::INTER_NEAREST);
+    pyramid.mask = Undistorted(mask, image, cv::INTER_NEAREST);
   }
-  return photograph;
+  return pyramid;
 }
 
 }
