@@ -35,7 +35,7 @@ std::vector<Eigen::Vector2d> Coordinates(const std::string& svg)
   return points;
 }
 
-std::size_t Count(const std::string& text, const std::string& part)
+std::size_t CountParts(const std::string& text, const std::string& part)
 {
   std::size_t count = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
@@ -52,9 +52,9 @@ TEST(CameraDrawing, HasEveryCameraAndOneReferenceForEachGroup)
   const std::vector<CameraGroup> groups = { { "a", { At(0, -5, 1), At(1, -5, 1), At(-1, -5, 1) } },
     { "b", { At(4, -5, 1), At(5, -5, 1) } } };
   const std::string svg = DrawCameras(groups, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 1 } });
-  EXPECT_EQ(Count(svg, "class=\"camera"), 10u) << "base and sides of each";
-  EXPECT_EQ(Count(svg, "camera reference"), 2u);
-  EXPECT_EQ(Count(svg, "class=\"label\""), 2u);
+  EXPECT_EQ(CountParts(svg, "class=\"camera"), 10u) << "base and sides of each";
+  EXPECT_EQ(CountParts(svg, "camera reference"), 2u);
+  EXPECT_EQ(CountParts(svg, "class=\"label\""), 2u);
   EXPECT_NE(svg.find("5 cameras in 2 clusters"), std::string::npos);
 }
 

@@ -24,7 +24,7 @@
 namespace
 {
 
-vtkSmartPointer<vtkMultiBlockDataSet> MakeMaps(unsigned int seed)
+vtkSmartPointer<vtkMultiBlockDataSet> MakeTwoMaps(unsigned int seed)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   const std::vector<freespace::DisparityMap> maps = freespace::RandomMaps(seed, 3);
@@ -66,7 +66,7 @@ TEST(FreespaceSurfaceFilter, IsTheContourOfTheUnion)
 {
   for (unsigned int seed = 0; seed < 2; ++seed)
   {
-    const auto maps = MakeMaps(seed);
+    const auto maps = MakeTwoMaps(seed);
     vtkNew<vtkFreespaceUnion> phi;
     phi->SetMaps(maps);
     phi->SetHullMargin(1.25 / 32); // of the 32 cells
@@ -96,7 +96,7 @@ TEST(FreespaceSurfaceFilter, IsTheContourOfTheUnion)
 TEST(FreespaceSurfaceFilter, RunsAgainOnlyAfterAChange)
 {
   vtkNew<vtkTrivialProducer> producer;
-  producer->SetOutput(MakeMaps(1));
+  producer->SetOutput(MakeTwoMaps(1));
   vtkNew<vtkFreespaceSurfaceFilter> surface;
   surface->SetInputConnection(producer->GetOutputPort());
   surface->SetCells(16);
@@ -116,7 +116,7 @@ TEST(FreespaceSurfaceFilter, RunsAgainOnlyAfterAChange)
   surface->GetFreespaceUnion()->SetMinimumViews(2);
   surface->Update();
   EXPECT_EQ(runs, 3);
-  producer->SetOutput(MakeMaps(2));
+  producer->SetOutput(MakeTwoMaps(2));
   surface->Update();
   EXPECT_EQ(runs, 4);
 }
@@ -124,7 +124,7 @@ TEST(FreespaceSurfaceFilter, RunsAgainOnlyAfterAChange)
 TEST(FreespaceSurfaceFilter, PiecesAreTheWhole)
 {
   vtkNew<vtkFreespaceSurfaceFilter> surface;
-  surface->SetInputDataObject(MakeMaps(3));
+  surface->SetInputDataObject(MakeTwoMaps(3));
   surface->SetCells(32);
   surface->GetContour()->CrumbsOn(); // only a whole surface can leave them out
   surface->FitSurfaceOff();
@@ -142,7 +142,7 @@ TEST(FreespaceSurfaceFilter, PiecesAreTheWhole)
 TEST(FreespaceSurfaceFilter, TellsErrorsAsItsOwn)
 {
   vtkNew<vtkFreespaceSurfaceFilter> surface;
-  surface->SetInputDataObject(MakeMaps(1));
+  surface->SetInputDataObject(MakeTwoMaps(1));
   surface->SetMinimumViews(100);
   int errors = 0;
   vtkNew<vtkCallbackCommand> count;
@@ -158,7 +158,7 @@ TEST(FreespaceSurfaceFilter, TellsErrorsAsItsOwn)
 TEST(FreespaceSurfaceFilter, HearsAnAbort)
 {
   vtkNew<vtkFreespaceSurfaceFilter> surface;
-  surface->SetInputDataObject(MakeMaps(1));
+  surface->SetInputDataObject(MakeTwoMaps(1));
   surface->SetCells(64);
   vtkNew<vtkCallbackCommand> abort;
   abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*)

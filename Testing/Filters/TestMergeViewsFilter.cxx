@@ -18,7 +18,7 @@ using namespace freespace;
 namespace
 {
 
-View MakeView(const std::string& name, const std::string& image, int points, double x)
+View MakeNamedView(const std::string& name, const std::string& image, int points, double x)
 {
   View view;
   view.name = name;
@@ -35,7 +35,7 @@ View MakeView(const std::string& name, const std::string& image, int points, dou
   return view;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> Blocks(const std::vector<View>& views)
+vtkSmartPointer<vtkMultiBlockDataSet> ViewBlocksOf(const std::vector<View>& views)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -60,9 +60,9 @@ void AddArray(vtkMultiBlockDataSet* blocks, unsigned int index, const char* name
 TEST(MergeViewsFilter, OneImageBecomesOneView)
 {
   const auto sparse =
-    Blocks({ MakeView("a.jpg", "a.jpg", 4, 0), MakeView("b.jpg", "b.jpg", 3, 0) });
-  const auto stereo =
-    Blocks({ MakeView("cluster1", "b.jpg", 5, 1), MakeView("cluster2", "c.jpg", 2, 1) });
+    ViewBlocksOf({ MakeNamedView("a.jpg", "a.jpg", 4, 0), MakeNamedView("b.jpg", "b.jpg", 3, 0) });
+  const auto stereo = ViewBlocksOf(
+    { MakeNamedView("cluster1", "b.jpg", 5, 1), MakeNamedView("cluster2", "c.jpg", 2, 1) });
   AddArray(sparse, 1, "Common", 1);
   AddArray(stereo, 0, "Common", 2);
   AddArray(sparse, 1, "Own", 1);
@@ -98,10 +98,11 @@ TEST(MergeViewsFilter, OneImageBecomesOneView)
 
 TEST(MergeViewsFilter, OtherCamerasStayApart)
 {
-  std::vector<View> views = { MakeView("one", "a.jpg", 4, 0), MakeView("two", "a.jpg", 3, 0) };
+  std::vector<View> views = { MakeNamedView("one", "a.jpg", 4, 0),
+    MakeNamedView("two", "a.jpg", 3, 0) };
   views[1].camera.t.x() += 1e-3;
   vtkNew<vtkMergeViewsFilter> merge;
-  merge->AddInputDataObject(Blocks(views));
+  merge->AddInputDataObject(ViewBlocksOf(views));
   merge->Update();
   EXPECT_EQ(merge->GetOutput()->GetNumberOfBlocks(), 2u);
 }
@@ -109,7 +110,8 @@ TEST(MergeViewsFilter, OtherCamerasStayApart)
 TEST(MergeViewsFilter, ViewsWithoutAnImageStayApart)
 {
   vtkNew<vtkMergeViewsFilter> merge;
-  merge->AddInputDataObject(Blocks({ MakeView("one", "", 4, 0), MakeView("two", "", 3, 0) }));
+  merge->AddInputDataObject(
+    ViewBlocksOf({ MakeNamedView("one", "", 4, 0), MakeNamedView("two", "", 3, 0) }));
   merge->Update();
   EXPECT_EQ(merge->GetOutput()->GetNumberOfBlocks(), 2u);
 }
@@ -117,8 +119,9 @@ TEST(MergeViewsFilter, ViewsWithoutAnImageStayApart)
 TEST(MergeViewsFilter, EmptyInputAndEmptyViews)
 {
   vtkNew<vtkMergeViewsFilter> merge;
-  merge->AddInputDataObject(Blocks({}));
-  merge->AddInputDataObject(Blocks({ MakeView("a", "a.jpg", 0, 0), MakeView("b", "a.jpg", 2, 0) }));
+  merge->AddInputDataObject(ViewBlocksOf({}));
+  merge->AddInputDataObject(
+    ViewBlocksOf({ MakeNamedView("a", "a.jpg", 0, 0), MakeNamedView("b", "a.jpg", 2, 0) }));
   merge->Update();
   ASSERT_EQ(merge->GetOutput()->GetNumberOfBlocks(), 1u);
   EXPECT_EQ(vtkPolyData::SafeDownCast(merge->GetOutput()->GetBlock(0))->GetNumberOfPoints(), 2);
@@ -130,7 +133,7 @@ TEST(MergeViewsFilter, BlockThatIsNoView)
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, vtkNew<vtkPolyData>());
   vtkNew<vtkMergeViewsFilter> merge;
-  merge->AddInputDataObject(Blocks({ MakeView("a", "a.jpg", 2, 0) }));
+  merge->AddInputDataObject(ViewBlocksOf({ MakeNamedView("a", "a.jpg", 2, 0) }));
   merge->AddInputDataObject(blocks);
   merge->Update();
   EXPECT_TRUE(errors.Has("View 'block 0' has no array CameraIntrinsics"));

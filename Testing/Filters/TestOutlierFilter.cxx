@@ -36,7 +36,7 @@ View RowWithAnOutlier()
   return view;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> Blocks(const View& view)
+vtkSmartPointer<vtkMultiBlockDataSet> BlocksWith(const View& view)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   SetNamedBlock(blocks, 0, view.name, BlockFromView(view));
@@ -54,7 +54,7 @@ TEST(OutlierFilter, DropsTheOutlierWithItsPartsOfTheChain)
 {
   const View view = RowWithAnOutlier();
   vtkNew<vtkOutlierFilter> filter;
-  filter->SetInputDataObject(Blocks(view));
+  filter->SetInputDataObject(BlocksWith(view));
   filter->SetSupportRadius(2); // of a row, whose box is empty, one pixel
   filter->SetSupport(1);
   ASSERT_EQ(ErrorOfUpdate(filter), "");
@@ -77,7 +77,7 @@ TEST(OutlierFilter, TwoNeighboursAreMoreThanTheEndsOfARowHave)
   View view = RowWithAnOutlier();
   view.points[3] = view.camera.Unproject({ 503, 500 }, 2);
   vtkNew<vtkOutlierFilter> filter;
-  filter->SetInputDataObject(Blocks(view));
+  filter->SetInputDataObject(BlocksWith(view));
   filter->SetSupportRadius(2);
   filter->SetSupport(2);
   ASSERT_EQ(ErrorOfUpdate(filter), "");
@@ -97,7 +97,7 @@ TEST(OutlierFilter, NeighboursOfTheTriangulation)
     AddFeature(view, Eigen::Vector2d(400 + 20 * (i % 7), 400 + 21 * (i / 7)), i == 24 ? 1.5 : 2);
   }
   vtkNew<vtkOutlierFilter> filter;
-  filter->SetInputDataObject(Blocks(view));
+  filter->SetInputDataObject(BlocksWith(view));
   ASSERT_EQ(ErrorOfUpdate(filter), "");
   ASSERT_EQ(FirstBlock(filter)->GetNumberOfPoints(), 48);
   for (vtkIdType i = 0; i < 48; ++i)
@@ -105,7 +105,7 @@ TEST(OutlierFilter, NeighboursOfTheTriangulation)
     EXPECT_EQ(Eigen::Vector3d(FirstBlock(filter)->GetPoint(i)), view.points[i < 24 ? i : i + 1]);
   }
   vtkNew<vtkDelaunayDisparityFilter> maps;
-  maps->SetInputDataObject(Blocks(view));
+  maps->SetInputDataObject(BlocksWith(view));
   maps->SetFeatureSpacing(0);
   maps->Update();
   auto* map = vtkPolyData::SafeDownCast(maps->GetOutput()->GetBlock(0));
@@ -121,7 +121,7 @@ TEST(OutlierFilter, FeaturesThatAreNotFiniteAreDropped)
   View view = RowWithAnOutlier();
   view.points[0].x() = std::numeric_limits<double>::quiet_NaN();
   vtkNew<vtkOutlierFilter> filter;
-  filter->SetInputDataObject(Blocks(view));
+  filter->SetInputDataObject(BlocksWith(view));
   filter->SetSupportRadius(2);
   filter->SetSupport(1);
   filter->Update();
@@ -131,7 +131,7 @@ TEST(OutlierFilter, FeaturesThatAreNotFiniteAreDropped)
 TEST(OutlierFilter, BadInputIsAnError)
 {
   vtkNew<vtkOutlierFilter> filter;
-  filter->SetInputDataObject(Blocks(RowWithAnOutlier()));
+  filter->SetInputDataObject(BlocksWith(RowWithAnOutlier()));
   filter->SetSupportRadius(-1);
   EXPECT_NE(ErrorOfUpdate(filter), "");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);

@@ -30,7 +30,7 @@ DisparityMap Silhouette(const std::string& name)
 }
 
 // Two views with a silhouette between them and one behind.
-vtkSmartPointer<vtkMultiBlockDataSet> Blocks()
+vtkSmartPointer<vtkMultiBlockDataSet> SquareBlocks()
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   const std::vector<DisparityMap> maps = RandomMaps(5, 2);
@@ -74,7 +74,7 @@ TEST(SilhouetteBlocks, AreMapsWithoutAnyFeature)
 
 TEST(SilhouetteBlocks, AreToldFromViews)
 {
-  const auto blocks = Blocks();
+  const auto blocks = SquareBlocks();
   EXPECT_EQ(NumberOfSilhouettes(blocks), 2u);
   const auto views = WithoutSilhouettes(blocks);
   ASSERT_EQ(views->GetNumberOfBlocks(), 2u);
@@ -86,18 +86,18 @@ TEST(SilhouetteBlocks, PassThroughTheFiltersOfViews)
 {
   vtkNew<vtkOutlierFilter> outliers;
   outliers->SetSupport(0);
-  outliers->SetInputDataObject(Blocks());
+  outliers->SetInputDataObject(SquareBlocks());
   outliers->Update();
   ExpectViewsThenSilhouettes(outliers->GetOutput());
 
   vtkNew<vtkMergeViewsFilter> merge;
-  merge->AddInputDataObject(Blocks());
+  merge->AddInputDataObject(SquareBlocks());
   merge->Update();
   ExpectViewsThenSilhouettes(merge->GetOutput());
 
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetSupport(0);
-  maps->SetInputDataObject(Blocks());
+  maps->SetInputDataObject(SquareBlocks());
   maps->Update();
   ExpectViewsThenSilhouettes(maps->GetOutput());
   EXPECT_GT(MapFromBlocks(maps->GetOutput(), 1).triangles.size(), 0u);

@@ -26,7 +26,7 @@ using namespace freespace;
 namespace
 {
 
-vtkPolyData* Block(vtkMultiBlockDataSet* blocks, unsigned int index)
+vtkPolyData* BlockOf(vtkMultiBlockDataSet* blocks, unsigned int index)
 {
   return vtkPolyData::SafeDownCast(blocks->GetBlock(index));
 }
@@ -88,7 +88,7 @@ TEST(StereoInMemory, ImagesInMemoryGiveTheSameFeatures)
   for (unsigned int i = 0; i < 3; ++i)
   {
     EXPECT_EQ(BlockName(found, i), BlockName(expected, i));
-    ExpectSameView(Block(found, i), Block(expected, i));
+    ExpectSameView(BlockOf(found, i), BlockOf(expected, i));
   }
 }
 
@@ -129,7 +129,7 @@ TEST(StereoInMemory, ImagesInMemoryOfMoreBits)
     outputs[k] = readers[k]->GetOutput();
   }
   ASSERT_EQ(outputs[0]->GetNumberOfBlocks(), outputs[1]->GetNumberOfBlocks());
-  ExpectSameView(Block(outputs[0], 0), Block(outputs[1], 0));
+  ExpectSameView(BlockOf(outputs[0], 0), BlockOf(outputs[1], 0));
 }
 
 TEST(StereoInMemory, FaultsOfImagesInMemoryAreNamed)

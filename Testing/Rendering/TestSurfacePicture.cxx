@@ -62,7 +62,7 @@ bool IsWhite(vtkImageData* picture, int column, int row)
   return Colour(picture, column, row) == std::array<int, 3>{ 255, 255, 255 };
 }
 
-std::string TemporaryFolder()
+std::string TemporaryPictures()
 {
   std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
   return mkdtemp(pattern.data());
@@ -294,7 +294,7 @@ TEST(SurfacePicture, SurfaceMayChange)
 
 TEST(SurfacePicture, WritesThePNGThatItShows)
 {
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryPictures();
   const std::string file = folder + "/picture.png";
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(BallOnSlab());
@@ -323,7 +323,7 @@ TEST(SurfacePicture, UnwritableFolderIsAnError)
 TEST(SurfacePicture, EmptySurfaceIsAnError)
 {
   freespace::ExpectedErrors errors;
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryPictures();
   vtkNew<vtkPolyData> empty;
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(empty);

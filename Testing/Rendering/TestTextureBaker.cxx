@@ -67,7 +67,7 @@ struct BakedScene
   }
 };
 
-std::string TemporaryFolder()
+std::string TemporaryTextures()
 {
   std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
   return mkdtemp(pattern.data());
@@ -211,7 +211,7 @@ TEST(SurfaceColor, ExposuresAreLevelled)
 TEST(TexturedSurfaceWriter, GLBLoadsInAnIndependentReader)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryTextures();
   ASSERT_EQ(Write(baked, folder + "/model.glb"), 1);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   vtkNew<vtkGLTFReader> reader;
@@ -248,7 +248,7 @@ TEST(TexturedSurfaceWriter, GLBLoadsInAnIndependentReader)
 TEST(TexturedSurfaceWriter, OBJHasItsMaterialAndTextureBeside)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryTextures();
   ASSERT_EQ(Write(baked, folder + "/model.obj"), 1);
   EXPECT_TRUE(fs::exists(folder + "/model.mtl"));
   ASSERT_TRUE(fs::exists(folder + "/model.png"));
@@ -271,7 +271,7 @@ TEST(TexturedSurfaceWriter, OBJHasItsMaterialAndTextureBeside)
 TEST(TexturedSurfaceWriter, PLYHasTheColoursOfPoints)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryTextures();
   ASSERT_EQ(Write(baked, folder + "/model.ply"), 1);
   vtkNew<vtkPLYReader> reader;
   reader->SetFileName((folder + "/model.ply").c_str());
@@ -295,7 +295,7 @@ TEST(TexturedSurfaceWriter, FaultsAreErrors)
   const BakedScene baked(1);
   EXPECT_EQ(Write(baked, "/nowhere/at/all/model.glb"), 0);
   EXPECT_TRUE(errors.Has("/nowhere/at/all"));
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryTextures();
   EXPECT_EQ(Write(baked, folder + "/model.xyz"), 0);
   EXPECT_TRUE(errors.Has("model.xyz"));
   vtkNew<vtkTexturedSurfaceWriter> writer;

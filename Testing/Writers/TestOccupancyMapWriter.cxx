@@ -66,7 +66,7 @@ int Write(const std::string& fileName, vtkMultiBlockDataSet* maps, double resolu
   return writer->Write();
 }
 
-std::string TemporaryFolder()
+std::string TemporaryMaps()
 {
   std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
   return mkdtemp(pattern.data());
@@ -123,7 +123,7 @@ void ExpectAgreement(const octomap::OcTree& tree)
 
 TEST(OccupancyMapWriter, BinaryTreeAgreesWithPhi)
 {
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryMaps();
   ASSERT_EQ(Write(folder + "/map.bt", Maps()), 1);
   octomap::OcTree tree(folder + "/map.bt");
   EXPECT_NEAR(tree.getResolution(), 0.02, 1e-9);
@@ -134,7 +134,7 @@ TEST(OccupancyMapWriter, BinaryTreeAgreesWithPhi)
 
 TEST(OccupancyMapWriter, FullTreeAgreesWithPhi)
 {
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryMaps();
   ASSERT_EQ(Write(folder + "/map.ot", Maps()), 1);
   const std::unique_ptr<octomap::AbstractOcTree> read(
     octomap::AbstractOcTree::read(folder + "/map.ot"));
@@ -171,7 +171,7 @@ struct Watcher
 
 TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
 {
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryMaps();
   for (const char* ending : { ".bt", ".ot" })
   {
     std::size_t whole = 0;
@@ -216,7 +216,7 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
   {
     GTEST_SKIP() << "octomap-tools are not installed";
   }
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryMaps();
   ASSERT_EQ(Write(folder + "/map.bt", Maps()), 1);
   const std::string command = tool + " " + folder + "/map.bt " + folder + "/again.ot > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
@@ -231,7 +231,7 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
 TEST(OccupancyMapWriter, FaultsAreErrors)
 {
   ExpectedErrors errors;
-  const std::string folder = TemporaryFolder();
+  const std::string folder = TemporaryMaps();
   EXPECT_EQ(Write("/nowhere/at/all/map.bt", Maps()), 0);
   EXPECT_TRUE(errors.Has("/nowhere/at/all"));
   EXPECT_EQ(Write(folder + "/map.xyz", Maps()), 0);

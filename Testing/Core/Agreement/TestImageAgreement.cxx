@@ -13,7 +13,7 @@ namespace
 
 // Images in a row, each matched with the two on either side. Every image belongs to a world; images of one
 // world confirm each other, others show tokens by chance.
-std::vector<ImageAgreement> Row(const std::vector<int>& worlds, unsigned int seed)
+std::vector<ImageAgreement> RowOfImages(const std::vector<int>& worlds, unsigned int seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> good(0.7, 1.0), chance(0.0, 0.35);
@@ -49,7 +49,7 @@ TEST(ImageAgreement, NobodyContradictsWhereAllAgree)
 {
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    const Agreement found = FindAgreement(12, Row(std::vector<int>(12, 0), seed));
+    const Agreement found = FindAgreement(12, RowOfImages(std::vector<int>(12, 0), seed));
     EXPECT_EQ(found.confirmed.size(), 12u);
     EXPECT_TRUE(found.contradicted.empty());
   }
@@ -59,21 +59,22 @@ TEST(ImageAgreement, SingleWrongImagesAreFound)
 {
   for (unsigned int seed = 0; seed < 20; ++seed)
   {
-    const Agreement found = FindAgreement(12, Row({ 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0 }, seed));
+    const Agreement found =
+      FindAgreement(12, RowOfImages({ 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0 }, seed));
     EXPECT_EQ(found.contradicted, (std::vector<int>{ 2, 7 }));
   }
 }
 
 TEST(ImageAgreement, OfTwoWorldsTheLargerIsRight)
 {
-  const Agreement found = FindAgreement(12, Row({ 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1 }, 1));
+  const Agreement found = FindAgreement(12, RowOfImages({ 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1 }, 1));
   EXPECT_EQ(found.contradicted, (std::vector<int>{ 8, 9, 10, 11 }));
 }
 
 TEST(ImageAgreement, GroupsThatWereNeverComparedAreLeftInPeace)
 {
-  std::vector<ImageAgreement> two = Row(std::vector<int>(5, 0), 1);
-  for (ImageAgreement agreement : Row(std::vector<int>(4, 0), 2))
+  std::vector<ImageAgreement> two = RowOfImages(std::vector<int>(5, 0), 1);
+  for (ImageAgreement agreement : RowOfImages(std::vector<int>(4, 0), 2))
   {
     agreement.image += 5;
     for (auto& other : agreement.others)
@@ -99,7 +100,7 @@ TEST(ImageAgreement, NothingIsKnownWithoutMatches)
 // A right image between wrong ones alone has nothing confirmed, and that is no evidence against it.
 TEST(ImageAgreement, WrongNeighborsAreNoEvidence)
 {
-  std::vector<ImageAgreement> row = Row(std::vector<int>(8, 0), 3);
+  std::vector<ImageAgreement> row = RowOfImages(std::vector<int>(8, 0), 3);
   row[3].confirmed = 1;
   row[3].others = { { 6, 0 }, { 7, 0 } }; // which are not compared with each other
   row[6].others = { { 4, row[6].confirmed }, { 5, row[6].confirmed } };

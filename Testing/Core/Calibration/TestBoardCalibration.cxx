@@ -84,7 +84,8 @@ void ExpectCameras(const BoardCalibration& calibration, const std::vector<Calibr
   }
 }
 
-void ExpectError(const std::function<void()>& action, const std::vector<std::string>& words)
+void ExpectCalibrationError(
+  const std::function<void()>& action, const std::vector<std::string>& words)
 {
   try
   {
@@ -180,7 +181,7 @@ TEST(BoardCalibration, ChessboardThatLooksTheSameTurned)
 {
   for (const char* board : { "chessboard:8x6:0.03", "chessboard:7x7:0.03", "chessboard:7x5:0.03" })
   {
-    ExpectError([&]() { Calibrate({ "none.png" }, board); }, { "turned", "even" });
+    ExpectCalibrationError([&]() { Calibrate({ "none.png" }, board); }, { "turned", "even" });
   }
 }
 
@@ -303,8 +304,8 @@ TEST(BoardCalibration, TooFewPictures)
   std::vector<CalibratedImage> two = Cameras({});
   two.resize(2);
   const std::vector<std::string> files = RenderAll(folder, charuco, two, false);
-  ExpectError([&]() { Calibrate(files, charuco); }, { "fewer than three" });
-  ExpectError([&]() { Calibrate({}, charuco); }, { "none of 0" });
+  ExpectCalibrationError([&]() { Calibrate(files, charuco); }, { "fewer than three" });
+  ExpectCalibrationError([&]() { Calibrate({}, charuco); }, { "none of 0" });
 }
 
 // Two pictures of another camera do not spoil the others.
@@ -351,9 +352,10 @@ TEST(BoardCalibration, OnePictureThreeTimes)
 TEST(BoardCalibration, PictureThatIsMissingOrNone)
 {
   TemporaryFolder folder;
-  ExpectError([&]() { Calibrate({ folder.Path("missing.png") }, charuco); }, { "missing.png" });
+  ExpectCalibrationError(
+    [&]() { Calibrate({ folder.Path("missing.png") }, charuco); }, { "missing.png" });
   const std::string text = folder.Write("text.png", "this is no picture");
-  ExpectError([&]() { Calibrate({ text }, charuco); }, { "text.png" });
+  ExpectCalibrationError([&]() { Calibrate({ text }, charuco); }, { "text.png" });
 }
 
 TEST(BoardCalibration, OptionsOutOfRange)

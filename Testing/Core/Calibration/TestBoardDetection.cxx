@@ -16,8 +16,8 @@ using namespace freespace;
 namespace
 {
 
-const std::string charuco = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
-const std::string chessboard = "chessboard:7x6:0.03";
+const std::string charucoBoard = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
+const std::string chessboardBoard = "chessboard:7x6:0.03";
 
 // Every corner that the image shows, but for those near its border or near what hides a part, was found.
 void ExpectAllFound(const BoardCorners& corners, const CalibratedImage& camera,
@@ -43,7 +43,7 @@ void ExpectAllFound(const BoardCorners& corners, const CalibratedImage& camera,
 }
 
 // What DetectBoard says is wrong.
-std::string FaultOf(const Board& board)
+std::string BoardFaultOf(const Board& board)
 {
   try
   {
@@ -62,7 +62,7 @@ TEST(BoardPoints, LieInRowsAboutTheMiddle)
 {
   // A ChArUco board of 8 x 6 squares has 7 x 5 inner corners, a chessboard is named by them.
   for (const auto& [text, columns, rows] :
-    { std::tuple(charuco, 7, 5), std::tuple(chessboard, 7, 6) })
+    { std::tuple(charucoBoard, 7, 5), std::tuple(chessboardBoard, 7, 6) })
   {
     const std::vector<Eigen::Vector3d> points = BoardPoints(BoardFromText(text));
     ASSERT_EQ(points.size(), static_cast<std::size_t>(columns * rows)) << text;
@@ -93,7 +93,7 @@ TEST(BoardDetection, ImagesWithoutABoardHaveNone)
   cv::randu(noise, 0, 255);
   for (const cv::Mat& image : { cv::Mat(360, 480, CV_8U, cv::Scalar(128)), noise })
   {
-    for (const std::string& text : { charuco, chessboard })
+    for (const std::string& text : { charucoBoard, chessboardBoard })
     {
       const Board board = BoardFromText(text);
       EXPECT_TRUE(DetectBoard(image, board).ids.empty()) << text;
@@ -105,7 +105,7 @@ TEST(BoardDetection, ImagesWithoutABoardHaveNone)
 
 TEST(BoardDetection, CornersAreExact)
 {
-  for (const std::string& text : { charuco, chessboard })
+  for (const std::string& text : { charucoBoard, chessboardBoard })
   {
     const Board board = BoardFromText(text);
     const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
@@ -131,7 +131,7 @@ TEST(BoardDetection, CornersAreExact)
 // A wrong corner is worse than a missing one.
 TEST(BoardDetection, HiddenCornersAreNotFound)
 {
-  const Board board = BoardFromText(charuco);
+  const Board board = BoardFromText(charucoBoard);
   const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
   cv::Mat picture = BoardRendering(board).Render(camera);
   const cv::Rect hidden(150, 100, 120, 120);
@@ -152,7 +152,7 @@ TEST(BoardDetection, CornersOfRandomCamerasAreExact)
   int found = 0, close = 0;
   std::mt19937 random(17);
   std::uniform_real_distribution<double> angle(-35, 35), roll(-180, 180), distance(0.28, 0.4);
-  const Board board = BoardFromText(charuco);
+  const Board board = BoardFromText(charucoBoard);
   const BoardRendering rendering(board);
   const std::vector<Eigen::Vector3d> points = BoardPoints(board);
   for (int trial = 0; trial < 8; ++trial)
@@ -177,7 +177,7 @@ TEST(BoardDetection, CornersOfRandomCamerasAreExact)
 
 TEST(BoardDetection, TheLayoutIsThatOfMoreMarkers)
 {
-  const Board board = BoardFromText(charuco);
+  const Board board = BoardFromText(charucoBoard);
   const CalibratedImage camera = BoardCamera(10, -8, 5, 0.32);
   for (const bool isFormer : { false, true })
   {
@@ -194,12 +194,12 @@ TEST(BoardDetection, TheLayoutIsThatOfMoreMarkers)
 
 TEST(BoardDetection, DictionaryThatIsUnknownOrTooSmall)
 {
-  Board board = BoardFromText(charuco);
+  Board board = BoardFromText(charucoBoard);
   board.dictionary = "DICT_3X3";
-  EXPECT_NE(FaultOf(board).find("DICT_3X3"), std::string::npos) << FaultOf(board);
+  EXPECT_NE(BoardFaultOf(board).find("DICT_3X3"), std::string::npos) << BoardFaultOf(board);
   board.dictionary = "DICT_5X5_50";
   board.columns = 15;
   board.rows = 15;
-  EXPECT_NE(FaultOf(board).find("DICT_5X5_50"), std::string::npos) << FaultOf(board);
-  EXPECT_NE(FaultOf(board).find("50 markers"), std::string::npos) << FaultOf(board);
+  EXPECT_NE(BoardFaultOf(board).find("DICT_5X5_50"), std::string::npos) << BoardFaultOf(board);
+  EXPECT_NE(BoardFaultOf(board).find("50 markers"), std::string::npos) << BoardFaultOf(board);
 }

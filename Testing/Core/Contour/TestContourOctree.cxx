@@ -70,7 +70,7 @@ std::map<LatticeIndex, int> AllCells(const ContourOctree& octree)
   return cells;
 }
 
-void Find(ContourOctree& octree)
+void FindCells(ContourOctree& octree)
 {
   octree.Find({}, SerialFor, true);
 }
@@ -83,7 +83,7 @@ TEST(ContourOctree, FindsEveryCellThatTheSurfacePasses)
   {
     const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 4), Plain(FreespaceUnionOptions()));
     ContourOctree octree(phi, phi.Hull().Bounds(), Cells(40));
-    Find(octree);
+    FindCells(octree);
     const auto found = FoundCells(octree);
     EXPECT_EQ(found, AllCells(octree)) << "seed " << seed;
     EXPECT_GT(found.size(), 500u) << "seed " << seed;
@@ -94,7 +94,7 @@ TEST(ContourOctree, OfAFieldThatClassifiesNoBox)
 {
   const Ball ball; // the octree keeps a reference
   ContourOctree octree(ball, Cube(1.3), Cells(30));
-  Find(octree);
+  FindCells(octree);
   EXPECT_EQ(FoundCells(octree), AllCells(octree));
 }
 
@@ -103,13 +103,13 @@ TEST(ContourOctree, PiecesPartitionTheCells)
   const FreespaceUnion phi(RandomMaps(6, 3), Plain(FreespaceUnionOptions()));
   ContourOptions options = Cells(90);
   ContourOctree whole(phi, phi.Hull().Bounds(), options);
-  Find(whole);
+  FindCells(whole);
   std::map<LatticeIndex, int> together;
   options.pieces = 3;
   for (options.piece = 0; options.piece < 3; ++options.piece)
   {
     ContourOctree piece(phi, phi.Hull().Bounds(), options);
-    Find(piece);
+    FindCells(piece);
     for (const auto& cell : FoundCells(piece, true))
     {
       EXPECT_TRUE(together.insert(cell).second) << "in two pieces";
@@ -123,7 +123,7 @@ TEST(ContourOctree, NothingPassesAnEmptyBox)
   const Ball ball;
   ContourOctree octree(
     ball, Eigen::AlignedBox3d(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6)), Cells(10));
-  Find(octree);
+  FindCells(octree);
   EXPECT_TRUE(FoundCells(octree).empty());
 }
 

@@ -16,7 +16,7 @@ namespace
 
 const std::vector<float> depths = { 1, 2, 3, 4.5F, 0, 6 };
 
-void ExpectError(const std::string& name, const std::string& bytes, const std::string& word)
+void ExpectDepthMapError(const std::string& name, const std::string& bytes, const std::string& word)
 {
   TemporaryFolder folder;
   try
@@ -73,25 +73,25 @@ TEST(DepthMap, PngOf16Bits)
 TEST(DepthMap, Malformed)
 {
   const std::string colmap = ColmapDepthBytes(3, 2, depths), pfm = PfmBytes(3, 2, depths, false);
-  ExpectError("a.bin", "", "header");
-  ExpectError("a.bin", "3&2&3&" + colmap.substr(6), "one channel");
-  ExpectError("a.bin", "0&2&1&", "width and height");
-  ExpectError("a.bin", "-3&2&1&", "width and height");
-  ExpectError("a.bin", "60000&60000&1&", "truncated");
-  ExpectError("a.bin", colmap + "x", "more");
-  ExpectError("a.pfm", "", "header");
-  ExpectError("a.pfm", "PF" + pfm.substr(2), "three channels");
-  ExpectError("a.pfm", "Pf 3 2 0 ", "scale");
-  ExpectError("a.pfm", "Pf 3 2 nan ", "scale");
-  ExpectError("a.png", "hello", "no PNG");
-  ExpectError("a.exr", "hello", ".pfm");
+  ExpectDepthMapError("a.bin", "", "header");
+  ExpectDepthMapError("a.bin", "3&2&3&" + colmap.substr(6), "one channel");
+  ExpectDepthMapError("a.bin", "0&2&1&", "width and height");
+  ExpectDepthMapError("a.bin", "-3&2&1&", "width and height");
+  ExpectDepthMapError("a.bin", "60000&60000&1&", "truncated");
+  ExpectDepthMapError("a.bin", colmap + "x", "more");
+  ExpectDepthMapError("a.pfm", "", "header");
+  ExpectDepthMapError("a.pfm", "PF" + pfm.substr(2), "three channels");
+  ExpectDepthMapError("a.pfm", "Pf 3 2 0 ", "scale");
+  ExpectDepthMapError("a.pfm", "Pf 3 2 nan ", "scale");
+  ExpectDepthMapError("a.png", "hello", "no PNG");
+  ExpectDepthMapError("a.exr", "hello", ".pfm");
   for (std::size_t length = 0; length < colmap.size(); ++length)
   {
-    ExpectError("a.bin", colmap.substr(0, length), "Cannot read");
+    ExpectDepthMapError("a.bin", colmap.substr(0, length), "Cannot read");
   }
   for (std::size_t length = 0; length < pfm.size(); ++length)
   {
-    ExpectError("a.pfm", pfm.substr(0, length), "Cannot read");
+    ExpectDepthMapError("a.pfm", pfm.substr(0, length), "Cannot read");
   }
   TemporaryFolder folder;
   cv::imwrite(folder.Path("a.png"), cv::Mat(2, 3, CV_8UC1, cv::Scalar(1)));

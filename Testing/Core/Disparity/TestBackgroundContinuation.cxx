@@ -18,7 +18,7 @@ namespace
 
 constexpr double WallDepth = 2, PlateDepth = 1, PlateHalf = 0.2;
 
-View MakeView(double x, double yaw)
+View MakeTurnedView(double x, double yaw)
 {
   View view;
   view.name = "cluster";
@@ -41,7 +41,8 @@ bool IsHiddenByPlate(const Camera& camera, const Vector3d& point)
 // wall only here and there.
 std::vector<View> PlateBeforeWall()
 {
-  std::vector<View> views = { MakeView(0, 0), MakeView(0.6, 0.3), MakeView(-0.6, -0.3) };
+  std::vector<View> views = { MakeTurnedView(0, 0), MakeTurnedView(0.6, 0.3),
+    MakeTurnedView(-0.6, -0.3) };
   for (View& view : views)
   {
     for (double s = -PlateHalf; s < PlateHalf; s += 0.01)
@@ -130,7 +131,7 @@ TEST(ContinueBackground, MatterStays)
 // the prism. The view from the right saw that edge, and that the wall goes on behind it.
 TEST(ContinueBackground, BridgesFromBehindAMissedEdgeStay)
 {
-  std::vector<View> views = { MakeView(0, 0), MakeView(0.6, 0.0) };
+  std::vector<View> views = { MakeTurnedView(0, 0), MakeTurnedView(0.6, 0.0) };
   const auto addColumn = [&](std::size_t view, double x, double z)
   {
     for (double y = -0.3; y < 0.31; y += 0.01)

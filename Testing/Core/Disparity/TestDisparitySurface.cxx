@@ -30,7 +30,7 @@ SightedPoint Point(double x, double y, double disparity)
 }
 
 // A square of disparity 1.
-std::vector<SightedPoint> Square()
+std::vector<SightedPoint> SquareMap()
 {
   return { Point(0, 0, 1), Point(10, 0, 1), Point(10, 10, 1), Point(0, 10, 1) };
 }
@@ -61,7 +61,7 @@ DisparityMap Inserted(const Others& others, double tolerance = 0)
   View view;
   view.name = "square";
   Surface surface(view);
-  surface.TriangulateFeatures(Square(), NeverCancelled);
+  surface.TriangulateFeatures(SquareMap(), NeverCancelled);
   surface.AddCandidates(others.Sightings, NeverCancelled);
   surface.EnforceMinimumDisparity(tolerance, NeverCancelled);
   DisparityMap map;
@@ -69,7 +69,7 @@ DisparityMap Inserted(const Others& others, double tolerance = 0)
   return map;
 }
 
-double Area(const DisparityMap& map)
+double AreaOfMap(const DisparityMap& map)
 {
   double sum = 0;
   for (const auto& [a, b, c] : map.triangles)
@@ -86,7 +86,7 @@ double Area(const DisparityMap& map)
 
 TEST(DisparitySurface, NearestOfFeaturesAtOnePixelIsTaken)
 {
-  std::vector<SightedPoint> features = Square();
+  std::vector<SightedPoint> features = SquareMap();
   features.push_back(Point(5, 5, 2));
   features.push_back(Point(5, 5, 4));
   features.push_back(Point(5, 5, 3));
@@ -97,7 +97,7 @@ TEST(DisparitySurface, NearestOfFeaturesAtOnePixelIsTaken)
   ASSERT_EQ(map.points.size(), 5u);
   EXPECT_EQ(map.points[4], features[5].point);
   EXPECT_EQ(map.triangles.size(), 4u);
-  EXPECT_DOUBLE_EQ(Area(map), 100);
+  EXPECT_DOUBLE_EQ(AreaOfMap(map), 100);
 }
 
 TEST(DisparitySurface, NeedsThreeFeaturesThatAreNotCollinear)
@@ -120,7 +120,7 @@ TEST(DisparitySurface, NeedsThreeFeaturesThatAreNotCollinear)
   EXPECT_NE(fault({ Point(0, 0, 1), Point(1, 1, 1) }).find("'poor' has 2"), std::string::npos);
   EXPECT_NE(
     fault({ Point(0, 0, 1), Point(1, 1, 1), Point(2, 2, 3) }).find("collinear"), std::string::npos);
-  EXPECT_EQ(fault(Square()), "");
+  EXPECT_EQ(fault(SquareMap()), "");
 }
 
 TEST(DisparitySurface, OnlyWhatIsHigherByMoreThanTheToleranceIsInserted)
@@ -131,7 +131,7 @@ TEST(DisparitySurface, OnlyWhatIsHigherByMoreThanTheToleranceIsInserted)
   ASSERT_EQ(map.points.size(), 5u);
   EXPECT_EQ(map.imagePoints[4], Vector2d(7, 6));
   EXPECT_EQ(map.sourceView, (std::vector<int>{ 0, 0, 0, 0, 1 }));
-  EXPECT_DOUBLE_EQ(Area(map), 100);
+  EXPECT_DOUBLE_EQ(AreaOfMap(map), 100);
 }
 
 // The lower one would be above the square, but not above the surface that the higher one spans.
@@ -170,5 +170,5 @@ TEST(DisparitySurface, CandidateAtAFeatureReplacesIt)
 TEST(DisparitySurface, StopsWhenItIsCancelled)
 {
   Surface surface{ View() };
-  EXPECT_THROW(surface.TriangulateFeatures(Square(), CancellationFlag(true)), Aborted);
+  EXPECT_THROW(surface.TriangulateFeatures(SquareMap(), CancellationFlag(true)), Aborted);
 }

@@ -35,7 +35,7 @@ Camera RandomCamera(std::mt19937& random)
 }
 
 // Views that share about half of their points.
-std::vector<View> RandomViews(int views, int pointsPerView)
+std::vector<View> MakeViewsOfPoints(int views, int pointsPerView)
 {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -60,7 +60,7 @@ std::vector<View> RandomViews(int views, int pointsPerView)
 
 TEST(FeatureCloud, EveryPointOnceUnderItsFirstView)
 {
-  const std::vector<View> views = RandomViews(5, 2000);
+  const std::vector<View> views = MakeViewsOfPoints(5, 2000);
   std::map<Key, int> expected, found;
   for (std::size_t v = 0; v < views.size(); ++v)
   {
@@ -85,7 +85,7 @@ TEST(FeatureCloud, EveryPointOnceUnderItsFirstView)
 
 TEST(FeatureCloud, NothingThatIsSeenIsPassedOver)
 {
-  const std::vector<View> views = RandomViews(6, 3000);
+  const std::vector<View> views = MakeViewsOfPoints(6, 3000);
   const FeatureCloud cloud(views);
   std::mt19937 random(9);
   std::size_t visited = 0;
@@ -113,7 +113,7 @@ TEST(FeatureCloud, NothingThatIsSeenIsPassedOver)
 
 TEST(FeatureCloud, OfSomeViewsAndWhatIsShared)
 {
-  const std::vector<View> views = RandomViews(6, 1500);
+  const std::vector<View> views = MakeViewsOfPoints(6, 1500);
   std::map<Key, std::set<int>> expected;
   for (std::size_t v = 0; v < views.size(); ++v)
   {

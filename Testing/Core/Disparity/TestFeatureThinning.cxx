@@ -29,7 +29,7 @@ View EmptyView()
   return view;
 }
 
-void Add(View& view, const Eigen::Vector2d& pixel, double disparity, double deviation = -1)
+void AddFeatureAt(View& view, const Eigen::Vector2d& pixel, double disparity, double deviation = -1)
 {
   view.imagePoints.push_back(pixel);
   view.points.push_back(view.camera.Unproject(pixel, 1 / disparity));
@@ -56,8 +56,8 @@ FeatureThinningOptions WithSpacing(double spacing)
 TEST(FeatureThinning, MeanWeightedByTheInverseVariances)
 {
   View view = EmptyView();
-  Add(view, { 30.5, 30.5 }, 1.000, 0.001);
-  Add(view, { 32.5, 31.5 }, 1.003, 0.002); // a quarter of the weight
+  AddFeatureAt(view, { 30.5, 30.5 }, 1.000, 0.001);
+  AddFeatureAt(view, { 32.5, 31.5 }, 1.003, 0.002); // a quarter of the weight
   const View thin = ThinFeatures(view, WithSpacing(3));
   ASSERT_EQ(thin.points.size(), 1u);
   EXPECT_NEAR(DisparityOf(thin, 0), 1.0006, 1e-12);
@@ -71,7 +71,7 @@ TEST(FeatureThinning, MeanWeightedByTheInverseVariances)
 TEST(FeatureThinning, OneAloneKeepsItsPlaceBesideItsProjection)
 {
   View view = EmptyView();
-  Add(view, { 100, 100 }, 0.5);
+  AddFeatureAt(view, { 100, 100 }, 0.5);
   view.imagePoints[0] +=
     Eigen::Vector2d(0.4, -0.3); // the observation of a point that others see, too
   const View thin = ThinFeatures(view, WithSpacing(3));
@@ -82,8 +82,8 @@ TEST(FeatureThinning, OneAloneKeepsItsPlaceBesideItsProjection)
 TEST(FeatureThinning, UnknownDeviationsCountLikeTheTypicalOne)
 {
   View view = EmptyView();
-  Add(view, { 30.5, 30.5 }, 1.000, 0.001);
-  Add(view, { 31.5, 30.5 }, 1.002, 0);
+  AddFeatureAt(view, { 30.5, 30.5 }, 1.000, 0.001);
+  AddFeatureAt(view, { 31.5, 30.5 }, 1.002, 0);
   const View thin = ThinFeatures(view, WithSpacing(3));
   ASSERT_EQ(thin.points.size(), 1u);
   EXPECT_NEAR(DisparityOf(thin, 0), 1.001, 1e-12);
@@ -93,9 +93,9 @@ TEST(FeatureThinning, UnknownDeviationsCountLikeTheTypicalOne)
 TEST(FeatureThinning, DepthsOfAnOcclusionStayApart)
 {
   View view = EmptyView();
-  Add(view, { 30.5, 30.5 }, 1.0);
-  Add(view, { 31.5, 30.5 }, 0.5);
-  Add(view, { 32.5, 30.5 }, 1.001);
+  AddFeatureAt(view, { 30.5, 30.5 }, 1.0);
+  AddFeatureAt(view, { 31.5, 30.5 }, 0.5);
+  AddFeatureAt(view, { 32.5, 30.5 }, 1.001);
   const View thin = ThinFeatures(view, WithSpacing(3));
   ASSERT_EQ(thin.points.size(), 2u);
   EXPECT_NEAR(DisparityOf(thin, 0), 1.0005, 1e-12);
@@ -108,7 +108,7 @@ TEST(FeatureThinning, EdgesJoinTheMergedFeatures)
   View view = EmptyView();
   for (int i = 0; i < 6; ++i)
   {
-    Add(view, { 30.5 + i, 30.5 }, 1);
+    AddFeatureAt(view, { 30.5 + i, 30.5 }, 1);
   }
   view.edges = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 4 }, { 5, 4 }, { 3, 2 } };
   const View thin = ThinFeatures(view, WithSpacing(3));
@@ -119,8 +119,8 @@ TEST(FeatureThinning, EdgesJoinTheMergedFeatures)
 TEST(FeatureThinning, NothingIsMergedWithoutASpacing)
 {
   View view = EmptyView();
-  Add(view, { 30.5, 30.5 }, 1);
-  Add(view, { 30.5, 30.5 }, 1);
+  AddFeatureAt(view, { 30.5, 30.5 }, 1);
+  AddFeatureAt(view, { 30.5, 30.5 }, 1);
   const View thin = ThinFeatures(view, WithSpacing(0));
   EXPECT_EQ(thin.points, view.points);
   EXPECT_EQ(thin.imagePoints, view.imagePoints);
@@ -129,10 +129,10 @@ TEST(FeatureThinning, NothingIsMergedWithoutASpacing)
 TEST(FeatureThinning, UselessFeaturesAreLeftOut)
 {
   View view = EmptyView();
-  Add(view, { 30.5, 30.5 }, -1);
-  Add(view, { 40.5, 30.5 }, 1);
-  Add(view, { 50.5, 30.5 }, 1);
-  Add(view, { 60.5, 30.5 }, 1);
+  AddFeatureAt(view, { 30.5, 30.5 }, -1);
+  AddFeatureAt(view, { 40.5, 30.5 }, 1);
+  AddFeatureAt(view, { 50.5, 30.5 }, 1);
+  AddFeatureAt(view, { 60.5, 30.5 }, 1);
   view.points[1].x() = std::numeric_limits<double>::quiet_NaN();
   view.imagePoints[2].y() = std::numeric_limits<double>::infinity();
   const View thin = ThinFeatures(view, WithSpacing(3));
@@ -152,7 +152,7 @@ TEST(FeatureThinning, APlaneStaysAPlane)
   for (int i = 0; i < 20000; ++i)
   {
     const Eigen::Vector2d pixel(x(random), y(random));
-    Add(view, pixel, disparity(pixel), deviation(random));
+    AddFeatureAt(view, pixel, disparity(pixel), deviation(random));
   }
   const View thin = ThinFeatures(view, WithSpacing(4));
   EXPECT_LE(thin.points.size(), 160u * 120u);

@@ -24,7 +24,7 @@ bool IsWithin(const Vector2d& p, const Outline& rectangle)
 }
 
 // Of each triangle twice the area, all of one sign.
-double Area(const PlanarTriangles& triangles)
+double AreaOfTriangles(const PlanarTriangles& triangles)
 {
   double sum = 0;
   for (const auto& [a, b, c] : triangles.triangles)
@@ -47,7 +47,7 @@ TEST(OutlineTriangulation, OfARectangleWithAHole)
     { outer, hole }, [&](const Vector2d& p) { return IsWithin(p, outer) && !IsWithin(p, hole); });
   EXPECT_EQ(result.points.size(), 8u);
   EXPECT_EQ(result.triangles.size(), 8u); // points + 2 x holes - 2
-  EXPECT_NEAR(Area(result), 60 - 9, 1e-9);
+  EXPECT_NEAR(AreaOfTriangles(result), 60 - 9, 1e-9);
 }
 
 TEST(OutlineTriangulation, OfPiecesApartAndTouching)
@@ -56,7 +56,7 @@ TEST(OutlineTriangulation, OfPiecesApartAndTouching)
                 far = Rectangle(9, 9, 10, 10);
   const auto result = TriangulateOutlines({ left, right, far },
     [&](const Vector2d& p) { return IsWithin(p, left) || IsWithin(p, right) || IsWithin(p, far); });
-  EXPECT_NEAR(Area(result), 1 + 2 + 1, 1e-9);
+  EXPECT_NEAR(AreaOfTriangles(result), 1 + 2 + 1, 1e-9);
 }
 
 TEST(OutlineTriangulation, OfOverlappingOutlinesMakesTheirCrossings)
@@ -64,7 +64,7 @@ TEST(OutlineTriangulation, OfOverlappingOutlinesMakesTheirCrossings)
   const Outline a = Rectangle(0, 0, 4, 2), b = Rectangle(1, -1, 3, 3);
   const auto result = TriangulateOutlines(
     { a, b }, [&](const Vector2d& p) { return IsWithin(p, a) || IsWithin(p, b); });
-  EXPECT_NEAR(Area(result), 8 + 8 - 4, 1e-9);
+  EXPECT_NEAR(AreaOfTriangles(result), 8 + 8 - 4, 1e-9);
   EXPECT_EQ(result.points.size(), 12u);
 }
 

@@ -12,7 +12,7 @@ using namespace freespace;
 namespace
 {
 
-View MakeView()
+View MakeUnitView()
 {
   View view;
   view.camera.K << 100, 0, 50, 0, 100, 40, 0, 0, 1;
@@ -21,7 +21,7 @@ View MakeView()
   return view;
 }
 
-void AddFeature(View& view, const Eigen::Vector2d& pixel, double depth)
+void AddFeatureAtDepth(View& view, const Eigen::Vector2d& pixel, double depth)
 {
   view.points.push_back(view.camera.Unproject(pixel, depth));
   view.imagePoints.push_back(pixel);
@@ -31,10 +31,10 @@ View RandomView(unsigned int seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> x(-10, 110), y(-10, 90), depth(1, 1.05);
-  View view = MakeView();
+  View view = MakeUnitView();
   for (int i = 0; i < 400; ++i)
   {
-    AddFeature(view, { x(random), y(random) }, depth(random));
+    AddFeatureAtDepth(view, { x(random), y(random) }, depth(random));
   }
   return view;
 }
@@ -69,30 +69,30 @@ TEST(RadiusSupport, AgreesWithBruteForce)
 
 TEST(RadiusSupport, OutlierHasNone)
 {
-  View view = MakeView();
+  View view = MakeUnitView();
   for (int i = 0; i < 5; ++i)
   {
-    AddFeature(view, { 50.0 + i, 40.0 }, 1.0);
+    AddFeatureAtDepth(view, { 50.0 + i, 40.0 }, 1.0);
   }
-  AddFeature(view, { 52.0, 40.5 }, 0.5);
+  AddFeatureAtDepth(view, { 52.0, 40.5 }, 0.5);
   const std::vector<int> support = CountSupport(view, 4, 0.01);
   EXPECT_EQ(support, (std::vector<int>{ 4, 4, 4, 4, 4, 0 }));
 }
 
 TEST(RadiusSupport, EmptyView)
 {
-  EXPECT_TRUE(CountSupport(MakeView(), 4, 0.01).empty());
+  EXPECT_TRUE(CountSupport(MakeUnitView(), 4, 0.01).empty());
 }
 
 TEST(RadiusSupport, NotANumberAndBehindTheCameraAreUnusable)
 {
-  View view = MakeView();
+  View view = MakeUnitView();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  AddFeature(view, { 50, 40 }, 1.0);
-  AddFeature(view, { 51, 40 }, 1.0);
+  AddFeatureAtDepth(view, { 50, 40 }, 1.0);
+  AddFeatureAtDepth(view, { 51, 40 }, 1.0);
   view.points.push_back({ nan, 0, 1 });
   view.imagePoints.push_back({ 50, 40 });
-  AddFeature(view, { 50, 40 }, -1.0);
+  AddFeatureAtDepth(view, { 50, 40 }, -1.0);
   view.points.push_back({ 0, 0, 1 });
   view.imagePoints.push_back({ nan, nan });
   EXPECT_EQ(CountSupport(view, 4, 0.01), (std::vector<int>{ 1, 1, -1, -1, -1 }));
@@ -100,9 +100,9 @@ TEST(RadiusSupport, NotANumberAndBehindTheCameraAreUnusable)
 
 TEST(RadiusSupport, DuplicatesSupportEachOther)
 {
-  View view = MakeView();
-  AddFeature(view, { 50, 40 }, 1.0);
-  AddFeature(view, { 50, 40 }, 1.0);
+  View view = MakeUnitView();
+  AddFeatureAtDepth(view, { 50, 40 }, 1.0);
+  AddFeatureAtDepth(view, { 50, 40 }, 1.0);
   EXPECT_EQ(CountSupport(view, 4, 0.01), (std::vector<int>{ 1, 1 }));
 }
 
@@ -110,12 +110,12 @@ TEST(RadiusSupport, DuplicatesSupportEachOther)
 TEST(RadiusSupport, CoincidentByTheHundredThousand)
 {
   constexpr int count = 300000;
-  View view = MakeView();
+  View view = MakeUnitView();
   for (int i = 0; i < count; ++i)
   {
-    AddFeature(view, { 50, 40 }, i < count / 2 ? 1.0 : 3.0);
+    AddFeatureAtDepth(view, { 50, 40 }, i < count / 2 ? 1.0 : 3.0);
   }
-  AddFeature(view, { -500, 40 }, 1.0);
+  AddFeatureAtDepth(view, { -500, 40 }, 1.0);
   const std::vector<int> support = CountSupport(view, 4, 0.01);
   EXPECT_EQ(support.front(), count / 2 - 1);
   EXPECT_EQ(support[count - 1], count / 2 - 1);
@@ -125,10 +125,10 @@ TEST(RadiusSupport, CoincidentByTheHundredThousand)
 TEST(RadiusSupport, MeanSpacingOfAGrid)
 {
   // A grid of 10 x 8 features 10 pixels apart covers 90 x 70 pixels: a mean spacing of 8.87.
-  View view = MakeView();
+  View view = MakeUnitView();
   for (int i = 0; i < 80; ++i)
   {
-    AddFeature(view, { 5.0 + i % 10 * 10, 5.0 + i / 10 * 10 }, 2);
+    AddFeatureAtDepth(view, { 5.0 + i % 10 * 10, 5.0 + i / 10 * 10 }, 2);
   }
   const double spacing = MeanSpacing(view);
   EXPECT_DOUBLE_EQ(spacing, std::sqrt(90.0 * 70 / 80));
@@ -141,9 +141,9 @@ TEST(RadiusSupport, MeanSpacingOfAGrid)
 
 TEST(RadiusSupport, MeanSpacingOfCoincidentOrNoFeatures)
 {
-  View view = MakeView();
+  View view = MakeUnitView();
   EXPECT_EQ(MeanSpacing(view), 0);
-  AddFeature(view, { 5, 5 }, 2);
-  AddFeature(view, { 5, 5 }, 2);
+  AddFeatureAtDepth(view, { 5, 5 }, 2);
+  AddFeatureAtDepth(view, { 5, 5 }, 2);
   EXPECT_EQ(MeanSpacing(view), 0);
 }

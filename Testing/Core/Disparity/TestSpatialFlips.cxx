@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-bool HasEdge(const DisparityMap& map, int a, int b)
+bool HasFlippedEdge(const DisparityMap& map, int a, int b)
 {
   return std::any_of(map.triangles.begin(), map.triangles.end(),
     [a, b](const std::array<int, 3>& t)
@@ -85,11 +85,11 @@ TEST(SpatialFlips, TheShorterDiagonalInSpaceWins)
   DelaunayDisparityOptions options;
   options.spatialFlips = false;
   const DisparityMap image = TriangulateView(views, 0, options);
-  ASSERT_TRUE(HasEdge(image, 2, 3)) << "Delaunay's in the image";
+  ASSERT_TRUE(HasFlippedEdge(image, 2, 3)) << "Delaunay's in the image";
   options.spatialFlips = true;
   const DisparityMap space = TriangulateView(views, 0, options);
-  EXPECT_TRUE(HasEdge(space, 0, 1));
-  EXPECT_FALSE(HasEdge(space, 2, 3));
+  EXPECT_TRUE(HasFlippedEdge(space, 0, 1));
+  EXPECT_FALSE(HasFlippedEdge(space, 2, 3));
   EXPECT_EQ(space.triangles.size(), 2u);
 }
 
@@ -101,7 +101,7 @@ TEST(SpatialFlips, EdgesOfTheStereoStay)
   {
     DelaunayDisparityOptions options;
     options.keepEdges = keepEdges;
-    EXPECT_TRUE(HasEdge(TriangulateView(views, 0, options), 2, 3));
+    EXPECT_TRUE(HasFlippedEdge(TriangulateView(views, 0, options), 2, 3));
   }
 }
 

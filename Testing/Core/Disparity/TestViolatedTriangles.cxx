@@ -11,7 +11,7 @@ namespace
 {
 
 // A square of two triangles at depth 2, pixels 400 to 600, its last corner at another depth.
-DisparityMap Square(double lastDepth = 2)
+DisparityMap SquareView(double lastDepth = 2)
 {
   DisparityMap map;
   static_cast<View&>(map) = MakeView();
@@ -43,7 +43,7 @@ using Pixel = Eigen::Vector2d;
 TEST(ViolatedTriangles, ByEnoughFeaturesInFront)
 {
   // Three before the first triangle, two before the second.
-  const std::vector<char> violated = Violated(Square(),
+  const std::vector<char> violated = Violated(SquareView(),
     { { Pixel(450, 450), 1.5 }, { Pixel(460, 450), 1.5 }, { Pixel(450, 460), 1.5 },
       { Pixel(550, 550), 1.5 }, { Pixel(560, 550), 1.5 } });
   EXPECT_EQ(violated, (std::vector<char>{ 1, 0 }));
@@ -58,14 +58,14 @@ TEST(ViolatedTriangles, NotWhereAsManyFeaturesAgree)
   {
     both.emplace_back(Pixel(430 + 5 * i, 430), 2.01); // within a hundredth of the depth
   }
-  EXPECT_EQ(Violated(Square(), both), (std::vector<char>{ 0, 0 }));
+  EXPECT_EQ(Violated(SquareView(), both), (std::vector<char>{ 0, 0 }));
   both.pop_back();
-  EXPECT_EQ(Violated(Square(), both), (std::vector<char>{ 1, 0 }));
+  EXPECT_EQ(Violated(SquareView(), both), (std::vector<char>{ 1, 0 }));
 }
 
 TEST(ViolatedTriangles, NotByFeaturesBehindOrOnIt)
 {
-  EXPECT_EQ(Violated(Square(),
+  EXPECT_EQ(Violated(SquareView(),
               { { Pixel(450, 450), 2.5 }, { Pixel(460, 450), 3 }, { Pixel(450, 460), 1.99 },
                 { Pixel(455, 455), 1.99 } }),
     (std::vector<char>{ 0, 0 }));
@@ -73,7 +73,7 @@ TEST(ViolatedTriangles, NotByFeaturesBehindOrOnIt)
 
 TEST(ViolatedTriangles, NotByTheViewsOwnFeatures)
 {
-  DisparityMap map = Square();
+  DisparityMap map = SquareView();
   for (int i = 0; i < 5; ++i)
   {
     AddFeature(map, Pixel(430 + 5 * i, 450), 1.5);
@@ -83,7 +83,7 @@ TEST(ViolatedTriangles, NotByTheViewsOwnFeatures)
 
 TEST(ViolatedTriangles, OfAMapWithoutTriangles)
 {
-  DisparityMap map = Square();
+  DisparityMap map = SquareView();
   map.triangles.clear();
   EXPECT_TRUE(Violated(map, { { Pixel(450, 450), 1.5 } }).empty());
 }
@@ -91,7 +91,7 @@ TEST(ViolatedTriangles, OfAMapWithoutTriangles)
 // The deepest corner is to blame when more than half of the triangles around it are violated.
 TEST(ViolatedTriangles, TheDeepestCornerDragsTheMap)
 {
-  const DisparityMap map = Square(4);
+  const DisparityMap map = SquareView(4);
   EXPECT_EQ(PointsBehindViolations(map, { 0, 1 }), (std::vector<char>{ 0, 0, 0, 1 }));
   EXPECT_EQ(PointsBehindViolations(map, { 0, 0 }), (std::vector<char>{ 0, 0, 0, 0 }));
   DisparityMap fan = map; // a second triangle at the deep corner, which is not violated

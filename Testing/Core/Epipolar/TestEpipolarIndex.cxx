@@ -14,7 +14,7 @@ using namespace freespace;
 namespace
 {
 
-Camera At(double x)
+Camera CameraAlongX(double x)
 {
   return ParallelCamera(x, 320, 240, 400);
 }
@@ -49,7 +49,7 @@ TEST(EpipolarIndex, FindsWhatASearchOverAllPiecesFinds)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> unit(0, 1);
-  const EpipolarPair pair(At(0), At(0.3));
+  const EpipolarPair pair(CameraAlongX(0), CameraAlongX(0.3));
   std::size_t found = 0;
   for (int trial = 0; trial < 30; ++trial)
   {
@@ -116,7 +116,7 @@ TEST(EpipolarIndex, FollowsAChain)
     token.contrast = 10;
   }
   edges.begin = { 0, 10 };
-  const EpipolarIndex index(EpipolarPair(At(0), At(0.3)), edges, 0.1);
+  const EpipolarIndex index(EpipolarPair(CameraAlongX(0), CameraAlongX(0.3)), edges, 0.1);
   EXPECT_EQ(index.Follow(0, 4.5F, 9), 4);
   EXPECT_EQ(index.Follow(8, 4.5F, 9), 4) << "backwards";
   EXPECT_EQ(index.Follow(0, 4.5F, 3), -1) << "too far away";
@@ -138,7 +138,7 @@ TEST(EpipolarIndex, PiecesAlongTheRowsAreEmpty)
     token.contrast = 10;
   }
   edges.begin = { 0, 10 };
-  const EpipolarIndex index(EpipolarPair(At(0), At(0.3)), edges, 0.1);
+  const EpipolarIndex index(EpipolarPair(CameraAlongX(0), CameraAlongX(0.3)), edges, 0.1);
   for (int token = 0; token < 10; ++token)
   {
     EXPECT_TRUE(index.PieceOf(token).Empty()) << token;
@@ -149,7 +149,7 @@ TEST(EpipolarIndex, NoEdgesAreFound)
 {
   EdgeChains none;
   none.begin = { 0 };
-  const EpipolarIndex index(EpipolarPair(At(0), At(0.3)), none, 0.1);
+  const EpipolarIndex index(EpipolarPair(CameraAlongX(0), CameraAlongX(0.3)), none, 0.1);
   int visits = 0;
   index.VisitRow(0, { -1000, 1000, 0, 1, 0 }, [&](int, float, float, float) { ++visits; });
   EXPECT_EQ(visits, 0);

@@ -134,7 +134,7 @@ namespace
 {
 
 // Chains that wander over the image.
-EdgeChains RandomChains(RandomCameras& random, int count)
+EdgeChains RandomChainsOf(RandomCameras& random, int count)
 {
   EdgeChains edges;
   for (int chain = 0; chain < count; ++chain)
@@ -163,7 +163,7 @@ TEST(EpipolarIndex, FindsTheSameAsLookingAtEveryPiece)
   RandomCameras random(7);
   const Camera reference = random.Next(), other = random.Next();
   const EpipolarPair pair(reference, other);
-  const EdgeChains edges = RandomChains(random, 100);
+  const EdgeChains edges = RandomChainsOf(random, 100);
   const EpipolarIndex index(pair, edges, 0.1);
   int found = 0;
   for (int trial = 0; trial < 500; ++trial)
@@ -209,7 +209,7 @@ TEST(EpipolarIndex, FollowsAChainToARowAndNotBeyondItsEnd)
   RandomCameras random(8);
   const Camera reference = random.Next(), other = random.Next();
   const EpipolarPair pair(reference, other);
-  const EdgeChains edges = RandomChains(random, 50);
+  const EdgeChains edges = RandomChainsOf(random, 50);
   const EpipolarIndex index(pair, edges, 0.1);
   int followed = 0;
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
@@ -277,7 +277,7 @@ TEST(EpipolarRays, AreThoseOfThePairTokenByToken)
   RandomCameras random(13);
   const Camera reference = random.Next(), other = random.Next();
   const EpipolarPair pair(reference, other);
-  const EdgeChains edges = RandomChains(random, 20);
+  const EdgeChains edges = RandomChainsOf(random, 20);
   EpipolarRays rays;
   for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
   {

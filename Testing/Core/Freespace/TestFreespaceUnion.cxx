@@ -47,7 +47,7 @@ std::vector<Vector3d> Features(const std::vector<DisparityMap>& maps)
   return all;
 }
 
-FreespaceUnionOptions Options(int minimumViews, double hullMargin)
+FreespaceUnionOptions VoteOptions(int minimumViews, double hullMargin)
 {
   auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = minimumViews;
@@ -64,7 +64,7 @@ TEST(FreespaceUnion, AgreesWithBruteForce)
     const std::vector<DisparityMap> maps = RandomMaps(seed, 1 + seed % 4);
     const std::vector<Vector3d> features = Features(maps);
     const int k = 1 + seed % 2;
-    const FreespaceUnion phi(maps, Options(k, 0.0));
+    const FreespaceUnion phi(maps, VoteOptions(k, 0.0));
     int claimed = 0;
     for (int i = 0; i < 400; ++i)
     {
@@ -93,7 +93,7 @@ TEST(FreespaceUnion, AgreesWithBruteForce)
 
 TEST(FreespaceUnion, GradientIsTheSlopeOfTheValue)
 {
-  const FreespaceUnion phi(RandomMaps(7, 3), Options(1, 0.01));
+  const FreespaceUnion phi(RandomMaps(7, 3), VoteOptions(1, 0.01));
   int tried = 0;
   for (int i = 0; i < 300; ++i)
   {
@@ -122,7 +122,7 @@ TEST(FreespaceUnion, BoxesAgreeWithTheirPoints)
   int decided = 0;
   for (unsigned int seed = 100; seed < 140; ++seed)
   {
-    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 4), Options(1 + seed % 2, 0.01));
+    const FreespaceUnion phi(RandomMaps(seed, 1 + seed % 4), VoteOptions(1 + seed % 2, 0.01));
     for (int i = 0; i < 100; ++i)
     {
       const Vector3d center = 1.5 * Vector3d::Random();
@@ -167,7 +167,8 @@ TEST(FreespaceUnion, CrossingsAreTheFirstPlacesThatEnoughViewsSeeFree)
   for (unsigned int seed = 0; seed < 40; ++seed)
   {
     const int views = 1 + seed % 6, minimumViews = 1 + seed / 6 % std::min(views, 4);
-    const FreespaceUnion phi(RandomMaps(seed, views), Options(minimumViews, seed % 2 ? 0.1 : 0.0));
+    const FreespaceUnion phi(
+      RandomMaps(seed, views), VoteOptions(minimumViews, seed % 2 ? 0.1 : 0.0));
     const FieldScope scope = phi.Root();
     const Eigen::AlignedBox3d box = phi.Hull().Bounds();
     std::mt19937 random(seed);
@@ -227,15 +228,15 @@ TEST(FreespaceUnion, AwkwardInput)
 
   map.triangles.push_back({ 0, 1, 9999 });
   EXPECT_THROW(FreespaceUnion({ map }, {}), Error);
-  EXPECT_THROW(FreespaceUnion({}, Options(0, 0.01)), Error);
-  EXPECT_THROW(FreespaceUnion({}, Options(1, -0.01)), Error);
-  EXPECT_THROW(FreespaceUnion({}, Options(1, NAN)), Error);
-  EXPECT_THROW(FreespaceUnion({}, Options(1, HUGE_VAL)), Error);
-  EXPECT_THROW(FreespaceUnion({}, Options(1, 10.0)), Error);
-  EXPECT_NO_THROW(FreespaceUnion({}, Options(1, 9.9)));
+  EXPECT_THROW(FreespaceUnion({}, VoteOptions(0, 0.01)), Error);
+  EXPECT_THROW(FreespaceUnion({}, VoteOptions(1, -0.01)), Error);
+  EXPECT_THROW(FreespaceUnion({}, VoteOptions(1, NAN)), Error);
+  EXPECT_THROW(FreespaceUnion({}, VoteOptions(1, HUGE_VAL)), Error);
+  EXPECT_THROW(FreespaceUnion({}, VoteOptions(1, 10.0)), Error);
+  EXPECT_NO_THROW(FreespaceUnion({}, VoteOptions(1, 9.9)));
   const std::vector<DisparityMap> two = RandomMaps(3, 2);
-  EXPECT_NO_THROW(FreespaceUnion(two, Options(2, 0.01)));
-  EXPECT_THROW(FreespaceUnion(two, Options(3, 0.01)), Error);
+  EXPECT_NO_THROW(FreespaceUnion(two, VoteOptions(2, 0.01)));
+  EXPECT_THROW(FreespaceUnion(two, VoteOptions(3, 0.01)), Error);
 }
 
 TEST(FreespaceUnion, StopsWhereverItIsBuilt)
@@ -247,7 +248,7 @@ TEST(FreespaceUnion, StopsWhereverItIsBuilt)
   {
     events = 0;
     last = 0.0;
-    return FreespaceUnion(maps, Options(1, 0.01), SerialFor,
+    return FreespaceUnion(maps, VoteOptions(1, 0.01), SerialFor,
       Progress(
         [&](double fraction)
         {
@@ -270,7 +271,7 @@ TEST(FreespaceUnion, StopsWhereverItIsBuilt)
 
 TEST(FreespaceUnion, AStoppedIndexIsMadeAnew)
 {
-  const FreespaceUnion phi(RandomMaps(3, 20), Options(1, 0.01));
+  const FreespaceUnion phi(RandomMaps(3, 20), VoteOptions(1, 0.01));
   int events = 0;
   const Progress third([&](double) { return ++events != 3; });
   EXPECT_THROW(phi.IndexForPoints(third), Aborted);

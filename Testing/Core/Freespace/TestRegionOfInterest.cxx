@@ -19,10 +19,10 @@ using Views = std::vector<ViewFeatures>;
 namespace
 {
 
-class Random
+class RandomPlaces
 {
 public:
-  explicit Random(unsigned int seed)
+  explicit RandomPlaces(unsigned int seed)
     : Engine(seed)
   {
   }
@@ -64,7 +64,7 @@ bool HasInImage(const ViewFeatures& view, const Vector3d& point)
 }
 
 // Gives each view so many points that it has in its image.
-void Add(Views& views, int count, const MakePoint& make, const SeesIt& sees = HasInImage)
+void AddPoints(Views& views, int count, const MakePoint& make, const SeesIt& sees = HasInImage)
 {
   for (ViewFeatures& view : views)
   {
@@ -81,7 +81,7 @@ void Add(Views& views, int count, const MakePoint& make, const SeesIt& sees = Ha
 }
 
 // Cameras along a wall of 12 x 4, at 8 to 11 from it.
-Views Castle(Random& random)
+Views Castle(RandomPlaces& random)
 {
   Views views;
   for (int i = 0; i < 9; ++i)
@@ -89,7 +89,7 @@ Views Castle(Random& random)
     const double x = -6 + 1.5 * i;
     views.push_back(CameraAt({ x, -11 + 0.3 * std::abs(x), 1.6 }, { 0.3 * x, 0, 2 }));
   }
-  Add(views, 1000, [&] { return random.In({ -6, -1, 0 }, { 6, 1, 4 }); });
+  AddPoints(views, 1000, [&] { return random.In({ -6, -1, 0 }, { 6, 1, 4 }); });
   return views;
 }
 
@@ -107,7 +107,7 @@ AlignedBox3d BoundsOf(const Views& views)
 }
 
 // Moves a share of the features away along their rays, to 10 to 1000 times their depth.
-Views Thrown(Views views, double share, Random& random)
+Views Thrown(Views views, double share, RandomPlaces& random)
 {
   for (ViewFeatures& view : views)
   {
@@ -123,14 +123,14 @@ Views Thrown(Views views, double share, Random& random)
   return views;
 }
 
-RegionOfInterest Find(const Views& views, const RegionOptions& options = {})
+RegionOfInterest FindRegionIn(const Views& views, const RegionOptions& options = {})
 {
   return FindRegion(views, options);
 }
 
 void ExpectAll(const Views& views)
 {
-  const RegionOfInterest region = Find(views);
+  const RegionOfInterest region = FindRegionIn(views);
   EXPECT_EQ(region.beyond, 0u);
   EXPECT_TRUE(region.box.isApprox(BoundsOf(views), 1e-12));
 }
@@ -151,13 +151,13 @@ void ExpectBody(const RegionOfInterest& region, const AlignedBox3d& body)
 
 TEST(RegionOfInterest, KeepsACompactBody)
 {
-  Random random(1);
+  RandomPlaces random(1);
   ExpectAll(Castle(random));
 }
 
 TEST(RegionOfInterest, LeavesOutAFarTail)
 {
-  Random random(2);
+  RandomPlaces random(2);
   Views views = Castle(random);
   const AlignedBox3d body = BoundsOf(views);
   for (ViewFeatures& view : views)
@@ -169,7 +169,7 @@ TEST(RegionOfInterest, LeavesOutAFarTail)
         view.camera.Unproject({ random.Uniform(0, 1500), random.Uniform(0, 1000) }, depth));
     }
   }
-  const RegionOfInterest region = Find(views);
+  const RegionOfInterest region = FindRegionIn(views);
   ExpectBody(region, body);
   EXPECT_EQ(region.features, 9 * 1003u);
   EXPECT_EQ(region.beyond, 27u);
@@ -179,7 +179,7 @@ TEST(RegionOfInterest, FindsAStatueBeforeAFarWall)
 {
   for (const double distance : { 3.0, 6.0, 30.0 })
   {
-    Random random(3);
+    RandomPlaces random(3);
     Views views;
     for (int i = 0; i < 24; ++i)
     {
@@ -190,40 +190,40 @@ TEST(RegionOfInterest, FindsAStatueBeforeAFarWall)
     // The near side only, as a body hides its back.
     const auto isNear = [](const ViewFeatures& view, const Vector3d& point)
     { return Vector2d(point.head<2>()).dot(Vector2d(view.camera.Center().head<2>())) > 0; };
-    Add(
+    AddPoints(
       views, 600,
       [&] {
         return random.In({ -0.25, -0.2, 0 }, { 0.25, 0.2, 1 });
       },
       isNear);
     const AlignedBox3d body = BoundsOf(views);
-    Add(views, 600,
+    AddPoints(views, 600,
       [&]
       {
         const double angle = random.Uniform(0, 2 * M_PI);
         return Vector3d(distance * std::cos(angle), distance * std::sin(angle),
           random.Uniform(-0.4 * distance, 0.6 * distance));
       });
-    ExpectBody(Find(views), body);
+    ExpectBody(FindRegionIn(views), body);
   }
 }
 
 TEST(RegionOfInterest, KeepsTheGroundOfAFlight)
 {
-  Random random(4);
+  RandomPlaces random(4);
   Views views;
   for (int i = 0; i < 48; ++i)
   {
     const double x = -150 + 300.0 / 7 * (i % 8), y = -100 + 200.0 / 5 * (i / 8);
     views.push_back(CameraAt({ x, y, 80 }, { x, y, 0 }));
   }
-  Add(views, 200, [&] { return random.In({ -200, -150, 0 }, { 200, 150, 9 }); });
+  AddPoints(views, 200, [&] { return random.In({ -200, -150, 0 }, { 200, 150, 9 }); });
   ExpectAll(views);
 }
 
 TEST(RegionOfInterest, KeepsAStreetThatWasDrivenAlong)
 {
-  Random random(5);
+  RandomPlaces random(5);
   Views views;
   for (int i = 0; i < 18; ++i)
   {
@@ -245,28 +245,28 @@ TEST(RegionOfInterest, KeepsAStreetThatWasDrivenAlong)
 
 TEST(RegionOfInterest, KeepsARowOfHousesAndTwoTowers)
 {
-  Random random(6);
+  RandomPlaces random(6);
   Views row, towers;
   for (int i = 0; i < 30; ++i)
   {
     const double x = -35 + 70.0 / 29 * i;
     row.push_back(CameraAt({ x, -12, 2 }, { x, 0, 4 }));
   }
-  Add(row, 300, [&] { return random.In({ -40, 0, 0 }, { 40, 1, 10 }); });
+  AddPoints(row, 300, [&] { return random.In({ -40, 0, 0 }, { 40, 1, 10 }); });
   ExpectAll(row);
   for (int i = 0; i < 24; ++i)
   {
     const double x = i < 12 ? 0 : 60, angle = i * M_PI / 6;
     towers.push_back(CameraAt({ x + 18 * std::cos(angle), 18 * std::sin(angle), 6 }, { x, 0, 5 }));
   }
-  Add(towers, 300, [&] { return random.In({ -5, -5, 0 }, { 5, 5, 10 }); });
-  Add(towers, 300, [&] { return random.In({ 55, -5, 0 }, { 65, 5, 10 }); });
+  AddPoints(towers, 300, [&] { return random.In({ -5, -5, 0 }, { 5, 5, 10 }); });
+  AddPoints(towers, 300, [&] { return random.In({ 55, -5, 0 }, { 65, 5, 10 }); });
   ExpectAll(towers);
 }
 
 TEST(RegionOfInterest, KeepsAllOfAWallThatWasMostlyTakenFromNear)
 {
-  Random random(7);
+  RandomPlaces random(7);
   Views views = Castle(random);
   for (int i = 0; i < 12; ++i)
   {
@@ -274,25 +274,25 @@ TEST(RegionOfInterest, KeepsAllOfAWallThatWasMostlyTakenFromNear)
     views.back().points.clear();
   }
   Views close(views.begin() + 9, views.end());
-  Add(close, 1000, [&] { return random.In({ -6, -0.2, 0 }, { 6, 0.2, 4 }); });
+  AddPoints(close, 1000, [&] { return random.In({ -6, -0.2, 0 }, { 6, 0.2, 4 }); });
   std::copy(close.begin(), close.end(), views.begin() + 9);
   ExpectAll(views);
 }
 
 TEST(RegionOfInterest, IsNotMovedByFeaturesThatWereThrownAway)
 {
-  Random random(8);
+  RandomPlaces random(8);
   const Views views = Castle(random);
-  const RegionOfInterest region = Find(Thrown(views, 0.002, random));
+  const RegionOfInterest region = FindRegionIn(Thrown(views, 0.002, random));
   ExpectBody(region, BoundsOf(views));
   EXPECT_GT(region.beyond, 0u);
 }
 
 TEST(RegionOfInterest, IsTheSameInAnyUnitAndPlaceOfTheWorld)
 {
-  Random random(9);
+  RandomPlaces random(9);
   const Views views = Thrown(Castle(random), 0.01, random);
-  const AlignedBox3d box = Find(views).box;
+  const AlignedBox3d box = FindRegionIn(views).box;
   const double scale = 1000;
   const Vector3d offset(4e5, -5e6, 100);
   Views moved = views;
@@ -304,14 +304,14 @@ TEST(RegionOfInterest, IsTheSameInAnyUnitAndPlaceOfTheWorld)
       point = scale * point + offset;
     }
   }
-  const AlignedBox3d there = Find(moved).box;
+  const AlignedBox3d there = FindRegionIn(moved).box;
   EXPECT_LT((there.min() - (scale * box.min() + offset)).norm(), 1e-3);
   EXPECT_LT((there.max() - (scale * box.max() + offset)).norm(), 1e-3);
 }
 
 TEST(RegionOfInterest, IsTheSameInAnyOrderOfWork)
 {
-  Random random(10);
+  RandomPlaces random(10);
   const Views views = Thrown(Castle(random), 0.01, random);
   const auto backwards =
     [](std::size_t count, const std::function<void(std::size_t, std::size_t)>& body)
@@ -321,7 +321,7 @@ TEST(RegionOfInterest, IsTheSameInAnyOrderOfWork)
       body(i, i + 1);
     }
   };
-  const RegionOfInterest there = FindRegion(views, {}, backwards), here = Find(views);
+  const RegionOfInterest there = FindRegion(views, {}, backwards), here = FindRegionIn(views);
   EXPECT_EQ(here.box.min(), there.box.min());
   EXPECT_EQ(here.box.max(), there.box.max());
   EXPECT_EQ(here.beyond, there.beyond);
@@ -329,22 +329,22 @@ TEST(RegionOfInterest, IsTheSameInAnyOrderOfWork)
 
 TEST(RegionOfInterest, HoldsAllWhereThatIsAsked)
 {
-  Random random(11);
+  RandomPlaces random(11);
   const Views views = Thrown(Castle(random), 0.01, random);
   RegionOptions options;
   options.mode = RegionOptions::Mode::All;
-  EXPECT_EQ(Find(views, options).beyond, 0u);
-  EXPECT_TRUE(Find(views, options).box.isApprox(BoundsOf(views)));
+  EXPECT_EQ(FindRegionIn(views, options).beyond, 0u);
+  EXPECT_TRUE(FindRegionIn(views, options).box.isApprox(BoundsOf(views)));
 }
 
 TEST(RegionOfInterest, HoldsTheFeaturesInAGivenBox)
 {
-  Random random(12);
+  RandomPlaces random(12);
   const Views views = Castle(random);
   RegionOptions options;
   options.mode = RegionOptions::Mode::Box;
   options.box = AlignedBox3d(Vector3d(0, -100, 1), Vector3d(2, 100, 3));
-  const RegionOfInterest region = Find(views, options);
+  const RegionOfInterest region = FindRegionIn(views, options);
   std::size_t inside = 0;
   for (const ViewFeatures& view : views)
   {
@@ -357,27 +357,27 @@ TEST(RegionOfInterest, HoldsTheFeaturesInAGivenBox)
   EXPECT_TRUE(options.box.contains(region.box));
   EXPECT_NEAR(region.box.sizes().x(), 2, 0.1);
   options.box.translate(Vector3d(1000, 0, 0));
-  EXPECT_THROW(Find(views, options), Error);
+  EXPECT_THROW(FindRegionIn(views, options), Error);
   options.box = AlignedBox3d(Vector3d(2, 0, 0), Vector3d(1, 1, 1));
-  EXPECT_THROW(Find(views, options), Error);
+  EXPECT_THROW(FindRegionIn(views, options), Error);
 }
 
 TEST(RegionOfInterest, TakesWhatIsTooLittleOrFlat)
 {
-  EXPECT_TRUE(Find({}).box.isEmpty());
+  EXPECT_TRUE(FindRegionIn({}).box.isEmpty());
   Views views(3, CameraAt({ 0, -5, 0 }, { 0, 0, 0 }));
-  EXPECT_TRUE(Find(views).box.isEmpty());
+  EXPECT_TRUE(FindRegionIn(views).box.isEmpty());
   views[0].points.assign(500, Vector3d(0.1, 0.2, 0.3));
-  EXPECT_EQ(Find(views).box.diagonal(), Vector3d::Zero());
-  EXPECT_EQ(Find(views).beyond, 0u);
+  EXPECT_EQ(FindRegionIn(views).box.diagonal(), Vector3d::Zero());
+  EXPECT_EQ(FindRegionIn(views).beyond, 0u);
   for (int i = 0; i < 500; ++i)
   {
     views[1].points.push_back({ 0.001 * i, 0.2, 0.3 });
   }
-  EXPECT_EQ(Find(views).beyond, 0u);
+  EXPECT_EQ(FindRegionIn(views).beyond, 0u);
   views[1].points.assign(20, Vector3d(0, 1e6, 0));
   views[0].points.resize(60);
-  EXPECT_EQ(Find(views).beyond, 0u) << "of so few none is an exception";
+  EXPECT_EQ(FindRegionIn(views).beyond, 0u) << "of so few none is an exception";
 }
 
 TEST(RegionOfInterest, ChecksItsOptions)

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-FreespaceUnion MakeUnion(unsigned int seed, int views, int minimumViews)
+FreespaceUnion MakeOctreeUnion(unsigned int seed, int views, int minimumViews)
 {
   auto options = Plain(FreespaceUnionOptions());
   options.minimumViews = minimumViews;
@@ -62,7 +62,7 @@ TEST(ViewOctree, AgreesWithAskingEveryView)
   {
     std::srand(seed);
     const int views = seed % 3 == 0 ? 2 : 25, k = 1 + static_cast<int>(seed % 2);
-    const FreespaceUnion phi = MakeUnion(seed, views, k);
+    const FreespaceUnion phi = MakeOctreeUnion(seed, views, k);
     for (const Vector3d& point : Points(phi.Hull().Bounds()))
     {
       int count = 0;
@@ -94,7 +94,7 @@ TEST(ViewOctree, AScopeAroundABoxDecidesItsPointsAsTheRootDoes)
   for (unsigned int seed = 0; seed < 10; ++seed)
   {
     std::srand(seed);
-    const FreespaceUnion phi = MakeUnion(seed, 12, 1 + static_cast<int>(seed % 2));
+    const FreespaceUnion phi = MakeOctreeUnion(seed, 12, 1 + static_cast<int>(seed % 2));
     const AlignedBox3d& bounds = phi.Hull().Bounds();
     for (int i = 0; i < 100; ++i)
     {

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 namespace
 {
 
-FreespaceUnion RandomUnion(unsigned int seed)
+FreespaceUnion MakeVotingUnion(unsigned int seed)
 {
   FreespaceUnionOptions options;
   options.hullMargin = 0.01;
@@ -40,7 +40,7 @@ VoteCount CountVotes(const FreespaceUnion& phi, const Vector3d& point)
 }
 
 // A view from far above on the square around the origin, which it sees at a height.
-DisparityMap Square(double height)
+DisparityMap SquareAt(double height)
 {
   DisparityMap map;
   map.camera = LookingAt(Vector3d(0, 0, 10), Vector3d::Zero());
@@ -60,7 +60,7 @@ FreespaceUnion Squares(const std::vector<double>& heights)
   std::vector<DisparityMap> maps;
   for (const double height : heights)
   {
-    maps.push_back(Square(height));
+    maps.push_back(SquareAt(height));
   }
   FreespaceUnionOptions options;
   options.hullMargin = 0.2;
@@ -72,7 +72,7 @@ FreespaceUnion Squares(const std::vector<double>& heights)
 
 TEST(ViewVotes, OfAPointCloselyBehindASurface)
 {
-  const ViewFreespace view(Square(1)); // at a depth of 9
+  const ViewFreespace view(SquareAt(1)); // at a depth of 9
   EXPECT_EQ(VoteOn(view, Vector3d(0, 0, 1.01), 0.1), Vote::Free);
   EXPECT_EQ(VoteOn(view, Vector3d(0, 0, 0.99), 0.1), Vote::Against);
   EXPECT_EQ(VoteOn(view, Vector3d(0, 0, 0.11), 0.1), Vote::Against);
@@ -103,7 +103,7 @@ TEST(ViewVotes, PointsAreFreeByTheVotesOfAllViews)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::srand(seed);
-    const FreespaceUnion phi = RandomUnion(seed);
+    const FreespaceUnion phi = MakeVotingUnion(seed);
     for (int i = 0; i < 500; ++i)
     {
       const Vector3d point = phi.Hull().Bounds().sample();
@@ -138,7 +138,7 @@ TEST(ViewVotes, BoxesAgreeWithTheirPoints)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::srand(seed);
-    const FreespaceUnion phi = RandomUnion(seed);
+    const FreespaceUnion phi = MakeVotingUnion(seed);
     for (int i = 0; i < 200; ++i)
     {
       const Vector3d low = phi.Hull().Bounds().sample();
@@ -174,7 +174,7 @@ TEST(ViewVotes, CrossingsAreTheFirstFreePlaces)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::srand(seed);
-    const FreespaceUnion phi = RandomUnion(seed);
+    const FreespaceUnion phi = MakeVotingUnion(seed);
     for (int i = 0; i < 100; ++i)
     {
       const Vector3d matter = phi.Hull().Bounds().sample();
@@ -210,7 +210,7 @@ TEST(ViewVotes, SegmentsAreFreeUpToTheFirstBlock)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::srand(seed);
-    const FreespaceUnion phi = RandomUnion(seed);
+    const FreespaceUnion phi = MakeVotingUnion(seed);
     for (int i = 0; i < 50; ++i)
     {
       const Vector3d first = phi.Hull().Bounds().sample();
@@ -240,7 +240,7 @@ TEST(ViewVotes, GradientIsTheSlopeOfTheValue)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::srand(seed);
-    const FreespaceUnion phi = RandomUnion(seed);
+    const FreespaceUnion phi = MakeVotingUnion(seed);
     for (int i = 0; i < 50; ++i)
     {
       const Vector3d point = phi.Hull().Bounds().sample();

@@ -35,7 +35,7 @@ void AddToken(EdgeChains& edges, const Eigen::Vector2d& position, const Eigen::V
 }
 
 // A vertical chain of 40 tokens downwards from a row, a token per pixel.
-void AddLine(
+void AddUprightLine(
   EdgeChains& edges, double column, double row, std::uint8_t bright = 150, std::uint8_t dark = 150)
 {
   for (int i = 0; i < 40; ++i)
@@ -45,7 +45,7 @@ void AddLine(
   edges.begin.push_back(static_cast<int>(edges.tokens.size()));
 }
 
-Camera CameraAt(double x)
+Camera SearchCameraAt(double x)
 {
   return ParallelCamera(x, 640, 480, 500);
 }
@@ -55,14 +55,14 @@ Camera CameraAt(double x)
 struct Lines
 {
   explicit Lines(const std::vector<double>& disparities)
-    : reference{ CameraAt(0), {} }
-    , others{ { CameraAt(-0.1), {} }, { CameraAt(0.2), {} } }
+    : reference{ SearchCameraAt(0), {} }
+    , others{ { SearchCameraAt(-0.1), {} }, { SearchCameraAt(0.2), {} } }
   {
-    AddLine(this->reference.edges, 320, 100.5);
+    AddUprightLine(this->reference.edges, 320, 100.5);
     for (const double disparity : disparities)
     {
-      AddLine(this->others[0].edges, 320 + 50 * disparity, 100);
-      AddLine(this->others[1].edges, 320 - 100 * disparity, 100);
+      AddUprightLine(this->others[0].edges, 320 + 50 * disparity, 100);
+      AddUprightLine(this->others[1].edges, 320 - 100 * disparity, 100);
     }
   }
 
@@ -209,8 +209,8 @@ TEST(CandidateSearch, ALineIsFoundAtItsDisparity)
 TEST(CandidateSearch, WhatNoImageCanConfirmIsLeftOut)
 {
   Lines lines({ 0.4 });
-  AddLine(lines.others[0].edges, 320 + 50 * 1.5, 100);
-  AddLine(lines.others[1].edges, 320 - 100 * 0.9, 100);
+  AddUprightLine(lines.others[0].edges, 320 + 50 * 1.5, 100);
+  AddUprightLine(lines.others[1].edges, 320 - 100 * 0.9, 100);
   CandidateSearch search(lines.reference, lines.others, lines.options);
   search.FindRays(0, 40);
   const auto found = FindAll(search, 20);
@@ -258,14 +258,14 @@ TEST(CandidateSearch, OneSideMustLookAlike)
 {
   Lines lines({});
   lines.reference.edges = {};
-  AddLine(lines.reference.edges, 320, 100.5, 200, 20);
-  AddLine(lines.reference.edges, 400, 100.5, 60, 5);    // darker on both sides
-  AddLine(lines.reference.edges, 480, 100.5, 200, 150); // the same on its brighter side
+  AddUprightLine(lines.reference.edges, 320, 100.5, 200, 20);
+  AddUprightLine(lines.reference.edges, 400, 100.5, 60, 5);    // darker on both sides
+  AddUprightLine(lines.reference.edges, 480, 100.5, 200, 150); // the same on its brighter side
   for (int line = 0; line < 3; ++line)
   {
     const std::uint8_t bright[] = { 200, 60, 200 }, dark[] = { 20, 5, 150 };
-    AddLine(lines.others[0].edges, 320 + 50 * (0.4 + line), 100, bright[line], dark[line]);
-    AddLine(lines.others[1].edges, 320 - 100 * (0.4 + line), 100, bright[line], dark[line]);
+    AddUprightLine(lines.others[0].edges, 320 + 50 * (0.4 + line), 100, bright[line], dark[line]);
+    AddUprightLine(lines.others[1].edges, 320 - 100 * (0.4 + line), 100, bright[line], dark[line]);
   }
   CandidateSearch search(lines.reference, lines.others, lines.options);
   search.FindRays(0, 40);

@@ -17,12 +17,12 @@ using namespace freespace;
 namespace
 {
 
-Camera CameraAt(double x)
+Camera ChainCameraAt(double x)
 {
   return ParallelCamera(x, 640, 480, 500);
 }
 
-EdgeSide SideOf(int grey)
+EdgeSide ChainSideOf(int grey)
 {
   EdgeSide side;
   side.fill({ static_cast<std::uint8_t>(grey), static_cast<std::uint8_t>(grey),
@@ -31,7 +31,7 @@ EdgeSide SideOf(int grey)
 }
 
 // A vertical chain of tokens a pixel apart, from row 100 + first + 0.25 on.
-void AddLine(EdgeChains& edges, double column, int first, int tokens, int bright, int dark)
+void AddPieceOfLine(EdgeChains& edges, double column, int first, int tokens, int bright, int dark)
 {
   for (int i = 0; i < tokens; ++i)
   {
@@ -39,8 +39,8 @@ void AddLine(EdgeChains& edges, double column, int first, int tokens, int bright
     token.position = { column, 100.25 + first + i };
     token.tangent = { 0, 1 };
     token.contrast = 100;
-    token.bright = SideOf(bright);
-    token.dark = SideOf(dark);
+    token.bright = ChainSideOf(bright);
+    token.dark = ChainSideOf(dark);
   }
   edges.begin.push_back(static_cast<int>(edges.tokens.size()));
 }
@@ -50,19 +50,19 @@ void AddLine(EdgeChains& edges, double column, int first, int tokens, int bright
 struct Scene
 {
   explicit Scene(int tokens)
-    : reference{ CameraAt(0), {} }
-    , others{ { CameraAt(-0.1), {} }, { CameraAt(0.2), {} } }
+    : reference{ ChainCameraAt(0), {} }
+    , others{ { ChainCameraAt(-0.1), {} }, { ChainCameraAt(0.2), {} } }
   {
-    AddLine(this->reference.edges, 320, 1, tokens, 150, 60);
+    AddPieceOfLine(this->reference.edges, 320, 1, tokens, 150, 60);
     this->options.minimumRun = 1;
   }
 
   // A line at a disparity, from a token on; darker than that of the reference by some grey levels.
   void Add(double disparity, int first, int tokens, int darker = 0)
   {
-    AddLine(
+    AddPieceOfLine(
       this->others[0].edges, 320 + 50 * disparity, first, tokens, 150 - darker, 60 - darker / 2);
-    AddLine(
+    AddPieceOfLine(
       this->others[1].edges, 320 - 100 * disparity, first, tokens, 150 - darker, 60 - darker / 2);
   }
 
@@ -180,10 +180,11 @@ TEST(ChainOptimizer, AJumpMustPayForItsBreaks)
     Scene scene(30);
     scene.Add(0.4, 0, 32, 50); // darker than it should be
     scene.Add(0.9, 5, tokens + 1);
-    AddLine(scene.reference.edges, 10, 1, 32, 100, 35);
+    AddPieceOfLine(scene.reference.edges, 10, 1, 32, 100, 35);
     for (ImageEdges& image : scene.others)
     {
-      AddLine(image.edges, 630, 1, 30 - tokens, 150, 60); // beyond what the other image can confirm
+      AddPieceOfLine(
+        image.edges, 630, 1, 30 - tokens, 150, 60); // beyond what the other image can confirm
     }
     ChainOptimizer optimizer(scene.reference, scene.others, scene.options);
     optimizer.ChooseAlongChain(0, 30);
@@ -223,14 +224,14 @@ TEST(ChainOptimizer, NoCombinationIsCheaper)
       for (EdgeToken& token : image.edges.tokens)
       {
         token.position.x() += place(random);
-        token.bright = SideOf(120 + grey(random));
-        token.dark = SideOf(40 + grey(random) / 2);
+        token.bright = ChainSideOf(120 + grey(random));
+        token.dark = ChainSideOf(40 + grey(random) / 2);
       }
     }
     for (EdgeToken& token : scene.reference.edges.tokens)
     {
-      token.bright = SideOf(120 + grey(random));
-      token.dark = SideOf(40 + grey(random) / 2);
+      token.bright = ChainSideOf(120 + grey(random));
+      token.dark = ChainSideOf(40 + grey(random) / 2);
     }
     CandidateSearch search(scene.reference, scene.others, scene.options);
     HypothesisBuilder builder(scene.reference.edges, search, scene.options);

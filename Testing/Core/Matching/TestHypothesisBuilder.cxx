@@ -16,9 +16,10 @@ using namespace freespace;
 namespace
 {
 
-constexpr float Sigma = 0.01F;
+constexpr float HypothesisSigma = 0.01F;
 
-EdgeCandidate Candidate(int image, double disparity, float cost = 0.1F, float sigma = Sigma)
+EdgeCandidate Candidate(
+  int image, double disparity, float cost = 0.1F, float sigma = HypothesisSigma)
 {
   EdgeCandidate candidate{};
   candidate.image = image;
@@ -29,10 +30,10 @@ EdgeCandidate Candidate(int image, double disparity, float cost = 0.1F, float si
 }
 
 // One token at pixel (100, 100), three other images, the farthest 0.4 away, and candidates that a test gives.
-class Trial
+class HypothesisTrial
 {
 public:
-  Trial()
+  HypothesisTrial()
     : Reference{ CameraAt(0), OneToken() }
     , Others{ { CameraAt(0.1), {} }, { CameraAt(-0.2), {} }, { CameraAt(0.4), {} } }
     , Search(this->Reference, this->Others, this->Options)
@@ -131,7 +132,7 @@ std::vector<EdgeHypothesis> ByAllPairs(
 
 TEST(HypothesisBuilder, WithoutCandidatesThereIsNoMatch)
 {
-  Trial trial;
+  HypothesisTrial trial;
   const auto found = trial.Find({});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].Empty());
@@ -142,14 +143,14 @@ TEST(HypothesisBuilder, WithoutCandidatesThereIsNoMatch)
 // Two that are half a tolerance apart: one hypothesis, in their middle.
 TEST(HypothesisBuilder, AThirdImageConfirms)
 {
-  Trial trial;
-  const double apart = 0.5 * trial.Options.tolerance * Sigma;
+  HypothesisTrial trial;
+  const double apart = 0.5 * trial.Options.tolerance * HypothesisSigma;
   const auto found = trial.Find({ Candidate(0, 0.5), Candidate(1, 0.5 + apart) });
   ASSERT_EQ(found.size(), 2u);
   EXPECT_TRUE(found[0].Confirmed());
   EXPECT_TRUE(found[0].promising);
   EXPECT_NEAR(found[0].disparity, 0.5 + apart / 2, 1e-9);
-  EXPECT_NEAR(found[0].sigma, Sigma / std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(found[0].sigma, HypothesisSigma / std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(found[0].score, (0.1 - 1) + (0.8 * 0.1 + 0.2 * 0.5 - 1), 1e-5);
   EXPECT_TRUE(found[1].Empty());
   // Its support: both, in the order of their images.
@@ -160,10 +161,10 @@ TEST(HypothesisBuilder, AThirdImageConfirms)
 
 TEST(HypothesisBuilder, BeyondTheToleranceNothingIsConfirmed)
 {
-  Trial trial;
+  HypothesisTrial trial;
   for (const auto& [tolerances, isPromising] : { std::pair(1.5, true), std::pair(2.5, false) })
   {
-    const double apart = tolerances * trial.Options.tolerance * Sigma;
+    const double apart = tolerances * trial.Options.tolerance * HypothesisSigma;
     const auto found = trial.Find({ Candidate(0, 0.5), Candidate(1, 0.5 + apart) });
     ASSERT_EQ(found.size(), 3u) << tolerances;
     for (int i = 0; i < 2; ++i)
@@ -178,9 +179,10 @@ TEST(HypothesisBuilder, BeyondTheToleranceNothingIsConfirmed)
 // The less certain of two decides: a short baseline cannot contradict a long one.
 TEST(HypothesisBuilder, TheToleranceIsThatOfTheLessCertain)
 {
-  Trial trial;
-  const double apart = 0.9 * trial.Options.tolerance * 5 * Sigma;
-  const auto found = trial.Find({ Candidate(0, 0.5, 0.1F, 5 * Sigma), Candidate(2, 0.5 + apart) });
+  HypothesisTrial trial;
+  const double apart = 0.9 * trial.Options.tolerance * 5 * HypothesisSigma;
+  const auto found =
+    trial.Find({ Candidate(0, 0.5, 0.1F, 5 * HypothesisSigma), Candidate(2, 0.5 + apart) });
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(found[0].Confirmed());
   EXPECT_NEAR(found[0].disparity, (0.5 / 25 + 0.5 + apart) / (1 + 1.0 / 25), 1e-9);
@@ -188,7 +190,7 @@ TEST(HypothesisBuilder, TheToleranceIsThatOfTheLessCertain)
 
 TEST(HypothesisBuilder, OneImageConfirmsNothing)
 {
-  Trial trial;
+  HypothesisTrial trial;
   const auto found = trial.Find({ Candidate(1, 0.5), Candidate(1, 0.502), Candidate(1, 0.504) });
   for (const EdgeHypothesis& hypothesis : found)
   {
@@ -205,7 +207,7 @@ TEST(HypothesisBuilder, ThePriorDecidesBetweenEquals)
     Candidate(0, 0.9), Candidate(1, 0.9) };
   for (const double usual : { 0.5, 0.9 })
   {
-    Trial trial;
+    HypothesisTrial trial;
     trial.Builder.SetPrior(std::make_unique<DisparityPrior>(
       std::vector<Eigen::Vector2d>{ { 100, 100 } }, std::vector<double>{ usual }));
     const auto found = trial.Find(candidates);
@@ -220,7 +222,7 @@ TEST(HypothesisBuilder, ThePriorDecidesBetweenEquals)
 
 TEST(HypothesisBuilder, ATokenHasSixHypothesesAtMost)
 {
-  Trial trial;
+  HypothesisTrial trial;
   std::vector<EdgeCandidate> candidates;
   for (int i = 0; i < 10; ++i)
   {
@@ -245,7 +247,7 @@ TEST(HypothesisBuilder, FindsWhatAllPairsSay)
   int confirmed = 0, three = 0, alone = 0;
   for (int round = 0; round < 500; ++round)
   {
-    Trial trial;
+    HypothesisTrial trial;
     std::vector<EdgeCandidate> candidates;
     for (int i = number(random); i > 0; --i)
     {

@@ -10,7 +10,7 @@ using namespace freespace;
 namespace
 {
 
-constexpr double Baseline = 100; // a disparity of 0.01 is a pixel
+constexpr double FilterBaseline = 100; // a disparity of 0.01 is a pixel
 
 // Chains that are one run each, with a token per pixel.
 struct Runs
@@ -42,7 +42,7 @@ struct Runs
     return run;
   }
 
-  void Filter() { DropLonelyRuns(this->edges, Baseline, MatcherOptions(), this->matches); }
+  void Filter() { DropLonelyRuns(this->edges, FilterBaseline, MatcherOptions(), this->matches); }
 
   // A run is kept or dropped as a whole.
   bool IsKept(int run) const

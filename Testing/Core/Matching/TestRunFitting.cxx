@@ -12,8 +12,8 @@ using namespace freespace;
 namespace
 {
 
-constexpr double Baseline = 100; // a disparity of 0.01 is a pixel
-constexpr float Sigma = 0.01f;
+constexpr double FittingBaseline = 100; // a disparity of 0.01 is a pixel
+constexpr float FittingSigma = 0.01f;
 
 // A chain along y = 0 with a token per pixel, each matched in two images.
 struct Chain
@@ -37,7 +37,7 @@ struct Chain
       this->chosen.push_back(hypothesis);
       for (int image = 0; image < 2; ++image)
       {
-        this->support.push_back({ disparity(i), Sigma, 0, 0.1f, image, i });
+        this->support.push_back({ disparity(i), FittingSigma, 0, 0.1f, image, i });
       }
     }
     this->edges.begin.push_back(count);
@@ -45,7 +45,7 @@ struct Chain
 
   LargeVector<EdgeMatch> Match(const MatcherOptions& options = {}) const
   {
-    return MatchRuns(this->edges, this->chosen, this->support, Baseline, options);
+    return MatchRuns(this->edges, this->chosen, this->support, FittingBaseline, options);
   }
 };
 
@@ -90,7 +90,7 @@ TEST(RunFitting, PointsAreNearestToAllEdgeLines)
     for (int image = 0; image < 2; ++image)
     {
       EdgeCandidate& candidate = chain.support[image];
-      candidate.sigma = Sigma * (1 + 0.3f * unit(random));
+      candidate.sigma = FittingSigma * (1 + 0.3f * unit(random));
       candidate.shift = 0.01f * unit(random);
       candidate.disparity = 0.5 + 0.001 * unit(random);
       rows.row(image) << 1 / double(candidate.sigma), -candidate.shift / double(candidate.sigma);
@@ -183,7 +183,7 @@ TEST(RunFitting, CostlyAndInfiniteMatchesAreDropped)
 
 TEST(RunFitting, NoTokens)
 {
-  EXPECT_TRUE(MatchRuns(EdgeChains(), {}, {}, Baseline, MatcherOptions()).empty());
+  EXPECT_TRUE(MatchRuns(EdgeChains(), {}, {}, FittingBaseline, MatcherOptions()).empty());
   const Chain empty(0, [](int) { return 0.5; });
   EXPECT_TRUE(empty.Match().empty());
 }

@@ -13,14 +13,14 @@ using namespace freespace;
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double Pi = 3.14159265358979323846;
 
-const std::vector<int> Row = { 0, 1, 2 };    // reference, left, right
-const std::vector<int> Column = { 0, 3, 4 }; // reference, up, down
-const std::vector<int> Cross = { 0, 1, 2, 3, 4 };
+const std::vector<int> ThreeCameras = { 0, 1, 2 }; // reference, left, right
+const std::vector<int> Column = { 0, 3, 4 };       // reference, up, down
+const std::vector<int> FiveCameras = { 0, 1, 2, 3, 4 };
 
 // Pictures of a scene and what was made of them.
-struct Trial
+struct MatcherTrial
 {
   std::vector<ImageEdges> images;
   LargeVector<EdgeMatch> matches; // per token of the first image
@@ -34,11 +34,11 @@ struct Trial
 
 using Change = std::function<void(int image, cv::Mat& picture)>;
 
-Trial Match(const Layers& layers, const std::vector<int>& cameras, const Change& change = nullptr,
-  const MatcherOptions& options = MatcherOptions())
+MatcherTrial Match(const Layers& layers, const std::vector<int>& cameras,
+  const Change& change = nullptr, const MatcherOptions& options = MatcherOptions())
 {
   const std::vector<Camera> all = CrossOfCameras();
-  Trial trial;
+  MatcherTrial trial;
   for (int camera : cameras)
   {
     cv::Mat picture = Render(layers, all[camera]);
@@ -54,7 +54,8 @@ Trial Match(const Layers& layers, const std::vector<int>& cameras, const Change&
 }
 
 // Disparity errors in pixels of one baseline (0.1), for the matches in the picture's inside.
-std::vector<double> Errors(const Trial& trial, const std::function<double(double, double)>& depth)
+std::vector<double> Errors(
+  const MatcherTrial& trial, const std::function<double(double, double)>& depth)
 {
   const Camera& camera = trial.images[0].camera;
   std::vector<double> errors;
@@ -96,7 +97,7 @@ double Share(const std::vector<double>& errors, double limit)
 // given angle with the x axis.
 Layers StraightEdge(double degrees)
 {
-  const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+  const double c = std::cos(degrees * Pi / 180), s = std::sin(degrees * Pi / 180);
   Layer plane;
   plane.exists = Everywhere();
   plane.color = [c, s](double x, double y) {
@@ -127,7 +128,7 @@ Layers Stripes(double halfWidth)
 
 TEST(TrinocularMatcher, VerticalEdge)
 {
-  const Trial trial = Match(StraightEdge(90), Row);
+  const MatcherTrial trial = Match(StraightEdge(90), ThreeCameras);
   const std::vector<double> errors = Errors(trial, AtDepth(1));
   EXPECT_GT(trial.Matched(), 160); // of 180 rows
   EXPECT_LT(std::abs(Mean(errors)), 0.03);
@@ -136,8 +137,8 @@ TEST(TrinocularMatcher, VerticalEdge)
 
 TEST(TrinocularMatcher, HorizontalEdgeIsLeftToTheOtherTriplet)
 {
-  EXPECT_EQ(Match(StraightEdge(0), Row).Matched(), 0);
-  const Trial trial = Match(StraightEdge(0), Column);
+  EXPECT_EQ(Match(StraightEdge(0), ThreeCameras).Matched(), 0);
+  const MatcherTrial trial = Match(StraightEdge(0), Column);
   EXPECT_GT(trial.Matched(), 215); // of 240 columns
   EXPECT_EQ(Share(Errors(trial, AtDepth(1)), 0.15), 1.0);
 }
@@ -146,7 +147,7 @@ TEST(TrinocularMatcher, EdgeAtEvery15Degrees)
 {
   for (int degrees = 0; degrees < 180; degrees += 15)
   {
-    const Trial trial = Match(StraightEdge(degrees), Cross);
+    const MatcherTrial trial = Match(StraightEdge(degrees), FiveCameras);
     const std::vector<double> errors = Errors(trial, AtDepth(1));
     const double tokens = static_cast<double>(trial.images[0].edges.tokens.size());
     EXPECT_GT(trial.Matched() / tokens, 0.9) << degrees << " degrees";
@@ -161,7 +162,7 @@ TEST(TrinocularMatcher, SlantedPlane)
   plane.slope = { 0.6, -0.3 };
   plane.exists = Everywhere();
   plane.color = RandomSquares(0.05, 1);
-  const Trial trial = Match({ plane }, Cross);
+  const MatcherTrial trial = Match({ plane }, FiveCameras);
   const auto depth = [&](double x, double y) { return 1 + plane.slope.dot(Eigen::Vector2d(x, y)); };
   const std::vector<double> errors = Errors(trial, depth);
   EXPECT_GT(trial.Matched() / static_cast<double>(trial.images[0].edges.tokens.size()), 0.7);
@@ -173,7 +174,7 @@ TEST(TrinocularMatcher, RepeatedPattern)
 {
   for (const double halfWidth : { 0.1, 0.17 })
   {
-    const Trial trial = Match(Stripes(halfWidth), Row);
+    const MatcherTrial trial = Match(Stripes(halfWidth), ThreeCameras);
     const std::vector<double> errors = Errors(trial, AtDepth(1));
     EXPECT_GT(errors.size(), 0.75 * 120 * halfWidth / 0.01)
       << halfWidth; // 120 rows, 16 px a period
@@ -191,7 +192,7 @@ TEST(TrinocularMatcher, SilhouetteBeforeTexturedBackground)
   back.depth = 1.2;
   back.exists = Everywhere();
   back.color = RandomSquares(0.12, 2);
-  const Trial trial = Match({ front, back }, Row);
+  const MatcherTrial trial = Match({ front, back }, ThreeCameras);
   int silhouette = 0, found = 0, wrong = 0;
   const Camera& camera = trial.images[0].camera;
   for (std::size_t i = 0; i < trial.matches.size(); ++i)
@@ -223,7 +224,7 @@ TEST(TrinocularMatcher, EdgeVisibleInTwoImagesOnly)
   screen.color = Plain(60, 40, 50);
   layers.push_back(screen);
   const Camera camera = CrossOfCameras()[0];
-  const auto near = [&](const Trial& trial)
+  const auto near = [&](const MatcherTrial& trial)
   {
     int count = 0;
     for (const EdgeMatch& match : trial.matches)
@@ -233,8 +234,8 @@ TEST(TrinocularMatcher, EdgeVisibleInTwoImagesOnly)
     }
     return count;
   };
-  EXPECT_GT(near(Match(StraightEdge(90), Row)), 160);
-  EXPECT_EQ(near(Match(layers, Row)), 0);
+  EXPECT_GT(near(Match(StraightEdge(90), ThreeCameras)), 160);
+  EXPECT_EQ(near(Match(layers, ThreeCameras)), 0);
 }
 
 TEST(TrinocularMatcher, NoiseAlone)
@@ -244,7 +245,7 @@ TEST(TrinocularMatcher, NoiseAlone)
   plane.color = Plain(120, 120, 120);
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 40);
-  const Trial trial = Match({ plane }, Cross,
+  const MatcherTrial trial = Match({ plane }, FiveCameras,
     [&](int, cv::Mat& picture)
     {
       for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel)
@@ -264,8 +265,8 @@ TEST(TrinocularMatcher, ImagesOfDifferentBrightness)
   Layer plane;
   plane.exists = Everywhere();
   plane.color = RandomSquares(0.05, 4);
-  const Trial same = Match({ plane }, Cross);
-  const Trial other = Match({ plane }, Cross,
+  const MatcherTrial same = Match({ plane }, FiveCameras);
+  const MatcherTrial other = Match({ plane }, FiveCameras,
     [](int image, cv::Mat& picture)
     {
       const double gain[5] = { 1.0, 0.6, 1.15, 0.8, 0.5 }, offset[5] = { 0, 5, -10, 15, 0 };
@@ -279,10 +280,10 @@ TEST(TrinocularMatcher, DisparityRangeIsKept)
 {
   MatcherOptions options;
   options.minimumDisparity = 1 / 0.9;
-  EXPECT_EQ(Match(StraightEdge(90), Row, nullptr, options).Matched(), 0);
+  EXPECT_EQ(Match(StraightEdge(90), ThreeCameras, nullptr, options).Matched(), 0);
   options.minimumDisparity = 1 / 1.1;
   options.maximumDisparity = 1 / 0.9;
-  EXPECT_GT(Match(StraightEdge(90), Row, nullptr, options).Matched(), 160);
+  EXPECT_GT(Match(StraightEdge(90), ThreeCameras, nullptr, options).Matched(), 160);
 }
 
 TEST(TrinocularMatcher, NoEdges)
@@ -290,7 +291,7 @@ TEST(TrinocularMatcher, NoEdges)
   Layer plane;
   plane.exists = Everywhere();
   plane.color = Plain(120, 120, 120);
-  EXPECT_EQ(Match({ plane }, Row).matches.size(), 0u);
+  EXPECT_EQ(Match({ plane }, ThreeCameras).matches.size(), 0u);
 }
 
 TEST(TrinocularMatcher, BadInput)

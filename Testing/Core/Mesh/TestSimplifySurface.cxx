@@ -106,7 +106,7 @@ double FurthestSample(const LabelledSurface& from, const LabelledSurface& to)
   return furthest;
 }
 
-bool MeetsItself(const LabelledSurface& surface)
+bool LabelledMeetsItself(const LabelledSurface& surface)
 {
   const TriangleSoup soup = { [&](std::int32_t v) { return surface.points[v]; },
     surface.triangles[0].data(), surface.triangles.size() };
@@ -149,7 +149,7 @@ TEST(SimplifySurface, RandomUnionsKeepTheBoundTheTopologyAndTheLabels)
     const LabelledSurface simple = SimplifySurface(surface, Bound(bound));
     EXPECT_LT(simple.triangles.size(), surface.triangles.size() * 9 / 10) << seed;
     EXPECT_EQ(TopologyFaults(MeshOf(simple)), "");
-    EXPECT_FALSE(MeetsItself(simple));
+    EXPECT_FALSE(LabelledMeetsItself(simple));
     EXPECT_LE(FurthestSample(surface, simple), bound);
     EXPECT_LE(FurthestSample(simple, surface), bound);
     // Each label's border stays, so its region shows the same area, but for what the bound allows.

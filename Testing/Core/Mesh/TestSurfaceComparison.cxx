@@ -16,7 +16,7 @@ namespace
 {
 
 // A square in the plane z = height over [0, width] x [0, 1].
-TriangleMesh Square(double height, double width = 1)
+TriangleMesh SquareMesh(double height, double width = 1)
 {
   TriangleMesh mesh;
   mesh.points = { { 0, 0, height }, { width, 0, height }, { width, 1, height }, { 0, 1, height } };
@@ -24,7 +24,7 @@ TriangleMesh Square(double height, double width = 1)
   return mesh;
 }
 
-SurfaceComparisonOptions Options(std::vector<double> limits)
+SurfaceComparisonOptions LimitOptions(std::vector<double> limits)
 {
   SurfaceComparisonOptions options;
   options.limits = std::move(limits);
@@ -36,7 +36,7 @@ SurfaceComparisonOptions Options(std::vector<double> limits)
 
 TEST(SurfaceComparison, OfParallelSquaresIsTheirDistance)
 {
-  const auto figures = CompareSurfaces(Square(0.25), Square(0), Options({ 0.3, 0.2 }));
+  const auto figures = CompareSurfaces(SquareMesh(0.25), SquareMesh(0), LimitOptions({ 0.3, 0.2 }));
   for (const SurfaceDistances& way : { figures.ofSurface, figures.ofReference })
   {
     EXPECT_EQ(way.samples, 20000u);
@@ -58,7 +58,7 @@ TEST(SurfaceComparison, OfParallelSquaresIsTheirDistance)
 TEST(SurfaceComparison, TellsWhatIsMissingFromWhatIsWrong)
 {
   // Half of the reference: what there is is right, and the other half is up to 1 away, evenly.
-  const auto figures = CompareSurfaces(Square(0, 1), Square(0, 2), Options({ 0.5 }));
+  const auto figures = CompareSurfaces(SquareMesh(0, 1), SquareMesh(0, 2), LimitOptions({ 0.5 }));
   EXPECT_EQ(figures.Accuracy(0), 1);
   EXPECT_NEAR(figures.ofSurface.greatest, 0, 1e-12);
   EXPECT_NEAR(figures.Completeness(0), 0.75, 0.01);
@@ -78,21 +78,23 @@ TEST(SurfaceComparison, TellsWhatIsMissingFromWhatIsWrong)
 
 TEST(SurfaceComparison, TellsTheAngleBetweenTheNormals)
 {
-  TriangleMesh tilted = Square(0);
+  TriangleMesh tilted = SquareMesh(0);
   for (Vector3d& point : tilted.points)
   {
     point.z() = point.x(); // 45 degrees
   }
-  EXPECT_NEAR(CompareSurfaces(tilted, Square(0), Options({ 1 })).ofSurface.medianAngle, 45, 1e-9);
-  TriangleMesh turned = Square(0.1);
+  EXPECT_NEAR(
+    CompareSurfaces(tilted, SquareMesh(0), LimitOptions({ 1 })).ofSurface.medianAngle, 45, 1e-9);
+  TriangleMesh turned = SquareMesh(0.1);
   turned.triangles = { { 0, 2, 1 }, { 0, 3, 2 } };
-  EXPECT_NEAR(CompareSurfaces(turned, Square(0), Options({ 1 })).ofSurface.meanAngle, 180, 1e-9);
+  EXPECT_NEAR(
+    CompareSurfaces(turned, SquareMesh(0), LimitOptions({ 1 })).ofSurface.meanAngle, 180, 1e-9);
 }
 
 TEST(SurfaceComparison, DoesNotDependOnHowTheSurfaceIsCut)
 {
   // One half in a thousand triangles, and a distance of its own.
-  TriangleMesh cut = Square(0.1);
+  TriangleMesh cut = SquareMesh(0.1);
   const int strips = 1000;
   for (int i = 0; i <= strips; ++i)
   {
@@ -105,19 +107,19 @@ TEST(SurfaceComparison, DoesNotDependOnHowTheSurfaceIsCut)
     cut.triangles.push_back({ a, a + 2, a + 3 });
     cut.triangles.push_back({ a, a + 3, a + 1 });
   }
-  const auto figures = CompareSurfaces(cut, Square(0, 2), Options({ 0.2 }));
+  const auto figures = CompareSurfaces(cut, SquareMesh(0, 2), LimitOptions({ 0.2 }));
   EXPECT_NEAR(figures.ofSurface.mean, 0.2, 1e-4);
   EXPECT_NEAR(figures.Accuracy(0), 0.5, 1e-3);
-  SurfaceComparisonOptions corners = Options({ 0.2 });
+  SurfaceComparisonOptions corners = LimitOptions({ 0.2 });
   corners.samples = 0;
-  EXPECT_NEAR(CompareSurfaces(cut, Square(0, 2), corners).Accuracy(0), 4.0 / 2006, 1e-12);
+  EXPECT_NEAR(CompareSurfaces(cut, SquareMesh(0, 2), corners).Accuracy(0), 4.0 / 2006, 1e-12);
 }
 
 TEST(SurfaceComparison, ChoosesLimitsByTheReference)
 {
   SurfaceComparisonOptions options;
   options.samples = 10;
-  const auto limits = CompareSurfaces(Square(0), Square(0, 2), options).limits;
+  const auto limits = CompareSurfaces(SquareMesh(0), SquareMesh(0, 2), options).limits;
   const double diagonal = std::sqrt(5);
   ASSERT_EQ(limits.size(), 3u);
   EXPECT_NEAR(limits[0], 0.001 * diagonal, 1e-15);
@@ -127,20 +129,21 @@ TEST(SurfaceComparison, ChoosesLimitsByTheReference)
 
 TEST(SurfaceComparison, RefusesWhatHasNoArea)
 {
-  TriangleMesh line = Square(0);
+  TriangleMesh line = SquareMesh(0);
   line.triangles = { { 0, 1, 1 } };
-  EXPECT_THROW(CompareSurfaces(line, Square(0), Options({ 1 })), Error);
-  EXPECT_THROW(CompareSurfaces(Square(0), TriangleMesh(), Options({ 1 })), Error);
-  TriangleMesh infinite = Square(0);
+  EXPECT_THROW(CompareSurfaces(line, SquareMesh(0), LimitOptions({ 1 })), Error);
+  EXPECT_THROW(CompareSurfaces(SquareMesh(0), TriangleMesh(), LimitOptions({ 1 })), Error);
+  TriangleMesh infinite = SquareMesh(0);
   infinite.points[2].x() = HUGE_VAL;
-  EXPECT_THROW(CompareSurfaces(Square(0), infinite, Options({ 1 })), Error);
-  EXPECT_THROW(CompareSurfaces(Square(0), Square(0), Options({ 0 })), Error);
-  EXPECT_THROW(CompareSurfaces(Square(0), Square(0), Options({ std::nan("") })), Error);
+  EXPECT_THROW(CompareSurfaces(SquareMesh(0), infinite, LimitOptions({ 1 })), Error);
+  EXPECT_THROW(CompareSurfaces(SquareMesh(0), SquareMesh(0), LimitOptions({ 0 })), Error);
+  EXPECT_THROW(
+    CompareSurfaces(SquareMesh(0), SquareMesh(0), LimitOptions({ std::nan("") })), Error);
 }
 
 TEST(SurfaceSamples, AreSpreadByArea)
 {
-  TriangleMesh mesh = Square(0, 1);
+  TriangleMesh mesh = SquareMesh(0, 1);
   mesh.points.push_back({ -3, 0, 0 });
   mesh.triangles.push_back({ 0, 3, 4 }); // three times as large as either of the others
   int counts[3] = {};

@@ -32,7 +32,7 @@ double ToTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const
   return isAbove ? std::abs(normal.normalized().dot(p - a)) : edges;
 }
 
-double BruteForce(const Vector3d& p, const TriangleMesh& mesh)
+double NearestByBruteForce(const Vector3d& p, const TriangleMesh& mesh)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : mesh.triangles)
@@ -42,10 +42,10 @@ double BruteForce(const Vector3d& p, const TriangleMesh& mesh)
   return least;
 }
 
-struct Random
+struct RandomNumbers
 {
   std::mt19937 engine;
-  explicit Random(unsigned seed)
+  explicit RandomNumbers(unsigned seed)
     : engine(seed)
   {
   }
@@ -58,7 +58,7 @@ struct Random
   int Index(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine); }
 };
 
-TriangleMesh RandomMesh(Random& random, int points, int triangles, const Vector3d& middle)
+TriangleMesh RandomMesh(RandomNumbers& random, int points, int triangles, const Vector3d& middle)
 {
   TriangleMesh mesh;
   for (int i = 0; i < points; ++i)
@@ -72,7 +72,7 @@ TriangleMesh RandomMesh(Random& random, int points, int triangles, const Vector3
   return mesh;
 }
 
-void TwoThreads(
+void OnTwoThreads(
   std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)
 {
   std::thread other([&] { body(0, count / 2); });
@@ -86,7 +86,7 @@ TEST(TriangleTree, IsBruteForceForRandomTriangles)
 {
   for (unsigned seed = 1; seed <= 60; ++seed)
   {
-    Random random(seed);
+    RandomNumbers random(seed);
     const int triangles = seed <= 20 ? static_cast<int>(seed) : random.Index(700) + 1;
     // Corners that are the same point make triangles without area; far from the origin digits are few.
     const Vector3d middle = seed % 3 == 0 ? Vector3d(5e5, -4e6, 100) : Vector3d::Zero();
@@ -99,7 +99,7 @@ TEST(TriangleTree, IsBruteForceForRandomTriangles)
     const auto found = TriangleTree(mesh).Find(points);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      const double expected = BruteForce(points[i], mesh);
+      const double expected = NearestByBruteForce(points[i], mesh);
       const double room = 1e-12 * (1 + expected) + (seed % 3 == 0 ? 1e-9 : 0);
       ASSERT_NEAR(found[i].distance, expected, room) << seed << ", point " << i;
       const auto& [a, b, c] = mesh.triangles[found[i].triangle];
@@ -111,7 +111,7 @@ TEST(TriangleTree, IsBruteForceForRandomTriangles)
 
 TEST(TriangleTree, IsBruteForceForNeedlesAndOutliers)
 {
-  Random random(5);
+  RandomNumbers random(5);
   TriangleMesh mesh;
   for (int i = 0; i < 200; ++i) // needles: two corners near to each other, or three in a line
   {
@@ -130,13 +130,13 @@ TEST(TriangleTree, IsBruteForceForNeedlesAndOutliers)
   const auto found = TriangleTree(mesh).Find(points);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    EXPECT_NEAR(found[i].distance, BruteForce(points[i], mesh), 1e-8);
+    EXPECT_NEAR(found[i].distance, NearestByBruteForce(points[i], mesh), 1e-8);
   }
 }
 
 TEST(TriangleTree, IsTheSameForAnyNumberOfThreads)
 {
-  Random random(7);
+  RandomNumbers random(7);
   const TriangleMesh mesh = RandomMesh(random, 500, 3000, Vector3d::Zero());
   std::vector<Vector3d> points;
   for (int i = 0; i < 5000; ++i)
@@ -144,7 +144,7 @@ TEST(TriangleTree, IsTheSameForAnyNumberOfThreads)
     points.push_back(random.Point());
   }
   const auto one = TriangleTree(mesh).Find(points);
-  const auto two = TriangleTree(mesh, TwoThreads).Find(points, HUGE_VAL, TwoThreads);
+  const auto two = TriangleTree(mesh, OnTwoThreads).Find(points, HUGE_VAL, OnTwoThreads);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     EXPECT_EQ(one[i].triangle, two[i].triangle);

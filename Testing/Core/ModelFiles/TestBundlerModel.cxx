@@ -50,7 +50,7 @@ std::string BundlerText(const SparseModel& model, bool fromCorner = false)
   return text.str();
 }
 
-void ExpectError(const std::string& content, const std::vector<std::string>& words)
+void ExpectBundlerError(const std::string& content, const std::vector<std::string>& words)
 {
   TemporaryFolder folder;
   try
@@ -186,14 +186,14 @@ TEST(BundlerModel, CamerasThatWereNotPlacedAreLeftOut)
 
 TEST(BundlerModel, Malformed)
 {
-  ExpectError("", { "bundle.out", "ends before" });
-  ExpectError("# Bundle file v0.3\n1 0\n500 0 zero\n", { "line 3", "'zero'" });
-  ExpectError("1 0\n500 0 0\n1 0 0\n0 2 0\n0 0 1\n0 0 0\n", { "camera 0", "rotation" });
-  ExpectError("0 1\n1 2 3\n9 8 7\n1 0 0 1 1\n", { "line 4", "no image 0" });
-  ExpectError("0 1\n1 nan 3\n9 8 7\n0\n", { "not finite" });
-  ExpectError("0 1\n1 2 3\n9 8 700\n0\n", { "line 3", "'700'" });
-  ExpectError("1 0\n-500 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n", { "focal length" });
-  ExpectError("99999999999 99999999999\n", { "ends before" });
+  ExpectBundlerError("", { "bundle.out", "ends before" });
+  ExpectBundlerError("# Bundle file v0.3\n1 0\n500 0 zero\n", { "line 3", "'zero'" });
+  ExpectBundlerError("1 0\n500 0 0\n1 0 0\n0 2 0\n0 0 1\n0 0 0\n", { "camera 0", "rotation" });
+  ExpectBundlerError("0 1\n1 2 3\n9 8 7\n1 0 0 1 1\n", { "line 4", "no image 0" });
+  ExpectBundlerError("0 1\n1 nan 3\n9 8 7\n0\n", { "not finite" });
+  ExpectBundlerError("0 1\n1 2 3\n9 8 700\n0\n", { "line 3", "'700'" });
+  ExpectBundlerError("1 0\n-500 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n", { "focal length" });
+  ExpectBundlerError("99999999999 99999999999\n", { "ends before" });
 }
 
 TEST(BundlerModel, TruncatedAnywhere)

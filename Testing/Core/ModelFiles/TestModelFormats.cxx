@@ -80,7 +80,7 @@ SparseModel ReadText(const std::string& name, const std::string& text)
   return ReadSparseModel(folder.Write(name, text));
 }
 
-void ExpectError(
+void ExpectFormatError(
   const std::string& name, const std::string& text, const std::vector<std::string>& words)
 {
   try
@@ -146,16 +146,16 @@ TEST(ModelFormats, TransformsThatAreRefused)
 {
   const std::string good = TransformsText(MakeSyntheticModel(2, 0, LensModel::OpenCV), true);
   const char* name = "transforms.json";
-  ExpectError(name, Replaced(good, "\"OPENCV\"", "\"EQUIRECTANGULAR\""),
+  ExpectFormatError(name, Replaced(good, "\"OPENCV\"", "\"EQUIRECTANGULAR\""),
     { name, "'camera_model'", "equirectangular", "split360Images" });
-  ExpectError(name, Replaced(good, "\"OPENCV\"", "\"EUCM\""), { "EUCM", "not supported" });
-  ExpectError(name, Replaced(good, "\"w\":", "\"v\":"), { name, "'w' is missing" });
-  ExpectError(name, Replaced(good, "\"fl_x\":", "\"x\":"), { "'fl_x' is missing" });
-  ExpectError(
+  ExpectFormatError(name, Replaced(good, "\"OPENCV\"", "\"EUCM\""), { "EUCM", "not supported" });
+  ExpectFormatError(name, Replaced(good, "\"w\":", "\"v\":"), { name, "'w' is missing" });
+  ExpectFormatError(name, Replaced(good, "\"fl_x\":", "\"x\":"), { "'fl_x' is missing" });
+  ExpectFormatError(
     name, Replaced(good, "[0,0,0,1]", "[0,0,1]"), { "'frames'[0], 'transform_matrix'", "16" });
-  ExpectError(
+  ExpectFormatError(
     name, Replaced(good, "image1.jpg", "image0.jpg"), { "two images are called image0.jpg" });
-  ExpectError(name, "{\"frames\": [", { name, "not valid JSON" });
+  ExpectFormatError(name, "{\"frames\": [", { name, "not valid JSON" });
 }
 
 TEST(ModelFormats, OpenMvgHasTheModelOfColmap)
@@ -177,11 +177,12 @@ TEST(ModelFormats, OpenMvgThatIsRefused)
   SparseModel model = MakeSyntheticModel(2, 3, LensModel::Radial);
   const std::string good = OpenMvgText(model);
   const char* name = "sfm_data.json";
-  ExpectError(name, Replaced(good, "pinhole_radial_k3", "spherical"), { name, "equirectangular" });
-  ExpectError(name, Replaced(good, "pinhole_radial_k3", "egg"), { "egg", "not supported" });
-  ExpectError(
+  ExpectFormatError(
+    name, Replaced(good, "pinhole_radial_k3", "spherical"), { name, "equirectangular" });
+  ExpectFormatError(name, Replaced(good, "pinhole_radial_k3", "egg"), { "egg", "not supported" });
+  ExpectFormatError(
     name, Replaced(good, "\"polymorphic_name\":", "\"name\":"), { "'intrinsics'[0]", "class" });
-  ExpectError(
+  ExpectFormatError(
     name, Replaced(good, "\"center\":", "\"centre\":"), { "'extrinsics'[0]", "'center'" });
 }
 
@@ -211,12 +212,13 @@ TEST(ModelFormats, AliceVisionThatIsRefused)
 {
   const std::string good =
     AliceVisionText(MakeSyntheticModel(2, 3, LensModel::SimpleRadial), { 1, 2, 6 });
-  ExpectError(
+  ExpectFormatError(
     "a.sfm", Replaced(good, "\"radial3\"", "\"equirectangular\""), { "a.sfm", "equirectangular" });
-  ExpectError("a.sfm", Replaced(good, "\"radial3\"", "\"3deanamorphic4\""), { "3deanamorphic4" });
-  ExpectError(
+  ExpectFormatError(
+    "a.sfm", Replaced(good, "\"radial3\"", "\"3deanamorphic4\""), { "3deanamorphic4" });
+  ExpectFormatError(
     "a.sfm", Replaced(good, "\"viewId\"", "\"isPoseIndependent\": false, \"viewId\""), { "rigs" });
-  ExpectError("a.sfm", Replaced(good, "\"28", "\"x28"), { "'intrinsics'[0]", "number" });
+  ExpectFormatError("a.sfm", Replaced(good, "\"28", "\"x28"), { "'intrinsics'[0]", "number" });
 }
 
 TEST(ModelFormats, MetashapeHasTheCamerasOfColmap)
@@ -246,21 +248,22 @@ TEST(ModelFormats, MetashapeThatIsRefused)
 {
   const std::string good = MetashapeText(MakeSyntheticModel(2, 0, LensModel::OpenCV));
   const char* name = "cameras.xml";
-  ExpectError(name, Replaced(good, "type=\"frame\"", "type=\"spherical\""),
+  ExpectFormatError(name, Replaced(good, "type=\"frame\"", "type=\"spherical\""),
     { name, "line 4", "equirectangular" });
-  ExpectError(name, Replaced(good, "<k1>", "<b2>3</b2><k1>"), { "b2" });
-  ExpectError(
+  ExpectFormatError(name, Replaced(good, "<k1>", "<b2>3</b2><k1>"), { "b2" });
+  ExpectFormatError(
     name, Replaced(good, "sensor_id=\"0\"", "sensor_id=\"9\""), { "image0.jpg", "sensor" });
-  ExpectError(name, Replaced(good, "component_id=\"0\"", "component_id=\"1\""), { "2 components" });
-  ExpectError(name, good.substr(0, good.size() / 2), { name, "not a valid" });
-  ExpectError(name, "<!DOCTYPE a [<!ENTITY b \"c\">]>" + good.substr(good.find("<document")),
+  ExpectFormatError(
+    name, Replaced(good, "component_id=\"0\"", "component_id=\"1\""), { "2 components" });
+  ExpectFormatError(name, good.substr(0, good.size() / 2), { name, "not a valid" });
+  ExpectFormatError(name, "<!DOCTYPE a [<!ENTITY b \"c\">]>" + good.substr(good.find("<document")),
     { "document type" });
   std::string deep = "<document>";
   for (int i = 0; i < 100000; ++i)
   {
     deep += "<a>";
   }
-  ExpectError(name, deep, { "nested too deep" });
+  ExpectFormatError(name, deep, { "nested too deep" });
 }
 
 TEST(ModelFormats, MiddleburyHasTheCamerasOfColmap)
@@ -278,10 +281,10 @@ TEST(ModelFormats, MiddleburyHasTheCamerasOfColmap)
 TEST(ModelFormats, MiddleburyThatIsRefused)
 {
   const std::string good = MiddleburyText(MakeSyntheticModel(2, 0));
-  ExpectError("a_par.txt", good.substr(0, good.size() / 2), { "a_par.txt", "ends before" });
-  ExpectError(
+  ExpectFormatError("a_par.txt", good.substr(0, good.size() / 2), { "a_par.txt", "ends before" });
+  ExpectFormatError(
     "a_par.txt", "1\na.png 500 3 320 0 500 240 0 0 1 1 0 0 0 1 0 0 0 1 0 0 0\n", { "skew" });
-  ExpectError(
+  ExpectFormatError(
     "a_par.txt", "1\na.png 500 0 320 0 500 240 0 0 1 2 0 0 0 1 0 0 0 1 0 0 0\n", { "rotation" });
 }
 
@@ -293,12 +296,12 @@ TEST(ModelFormats, KindsThatAreNotReadAreNamed)
     { "a.ply", "no cameras" }, { "a.mg", "Meshroom" } };
   for (const auto& [file, word] : kinds)
   {
-    ExpectError(file, "x", { file, word });
+    ExpectFormatError(file, "x", { file, word });
   }
-  ExpectError(
+  ExpectFormatError(
     "reconstruction.json", "[{\"cameras\": {}, \"shots\": {}}]", { "OpenSfM", "export_colmap" });
-  ExpectError("a.xyz", "x", { "a.xyz", "neither" });
-  ExpectError("some.json", "{\"a\": 1}", { "some.json", "neither" });
+  ExpectFormatError("a.xyz", "x", { "a.xyz", "neither" });
+  ExpectFormatError("some.json", "{\"a\": 1}", { "some.json", "neither" });
 }
 
 TEST(ModelFormats, FoundInTheirFolders)

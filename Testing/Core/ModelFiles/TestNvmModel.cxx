@@ -58,7 +58,7 @@ std::string NvmText(const SparseModel& model, double r)
   return text.str();
 }
 
-void ExpectError(const std::string& content, const std::vector<std::string>& words)
+void ExpectNvmError(const std::string& content, const std::vector<std::string>& words)
 {
   TemporaryFolder folder;
   try
@@ -180,16 +180,16 @@ TEST(NvmModel, FixedCalibration)
 
 TEST(NvmModel, Malformed)
 {
-  ExpectError("", { "model.nvm", "ends before" });
-  ExpectError("NVM_V2\n", { "line 1", "NVM_V3" });
-  ExpectError("NVM_V3 FixedK 1 2 3\n", { "line 1", "FixedK", "ends before" });
-  ExpectError("NVM_V3 FixedK 1 2 3 x\n", { "line 1", "'x'" });
-  ExpectError("NVM_V3 FixedK 1 2 3 4 0.5\n", { "line 1", "distortion", "not supported" });
-  ExpectError("NVM_V3 Free 1 2 3 4\n", { "line 1", "'Free'" });
-  ExpectError("NVM_V3\n1\na.jpg 500 0 0 0 0 1 2 3 0 0\n0\n", { "line 3", "pose" });
-  ExpectError("NVM_V3\n1\na.jpg 0 1 0 0 0 1 2 3 0 0\n0\n", { "focal length" });
-  ExpectError("NVM_V3\n1\na.jpg f 1 0 0 0 1 2 3 0 0\n0\n", { "line 3", "'f'" });
-  ExpectError("NVM_V3\n0\n1\n1 2 3 9 8 7 1 0 0 5 5\n", { "line 4", "no image 0" });
-  ExpectError("NVM_V3\n99999999999\n", { "ends before" });
-  ExpectError("NVM_V3\n0\n99999999999\n", { "ends before" });
+  ExpectNvmError("", { "model.nvm", "ends before" });
+  ExpectNvmError("NVM_V2\n", { "line 1", "NVM_V3" });
+  ExpectNvmError("NVM_V3 FixedK 1 2 3\n", { "line 1", "FixedK", "ends before" });
+  ExpectNvmError("NVM_V3 FixedK 1 2 3 x\n", { "line 1", "'x'" });
+  ExpectNvmError("NVM_V3 FixedK 1 2 3 4 0.5\n", { "line 1", "distortion", "not supported" });
+  ExpectNvmError("NVM_V3 Free 1 2 3 4\n", { "line 1", "'Free'" });
+  ExpectNvmError("NVM_V3\n1\na.jpg 500 0 0 0 0 1 2 3 0 0\n0\n", { "line 3", "pose" });
+  ExpectNvmError("NVM_V3\n1\na.jpg 0 1 0 0 0 1 2 3 0 0\n0\n", { "focal length" });
+  ExpectNvmError("NVM_V3\n1\na.jpg f 1 0 0 0 1 2 3 0 0\n0\n", { "line 3", "'f'" });
+  ExpectNvmError("NVM_V3\n0\n1\n1 2 3 9 8 7 1 0 0 5 5\n", { "line 4", "no image 0" });
+  ExpectNvmError("NVM_V3\n99999999999\n", { "ends before" });
+  ExpectNvmError("NVM_V3\n0\n99999999999\n", { "ends before" });
 }

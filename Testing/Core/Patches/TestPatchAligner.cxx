@@ -16,7 +16,7 @@ namespace
 {
 
 // A smooth texture without an edge.
-std::function<Eigen::Vector3d(double, double)> Waves()
+std::function<Eigen::Vector3d(double, double)> WavesImage()
 {
   return [](double x, double y)
   {
@@ -27,11 +27,11 @@ std::function<Eigen::Vector3d(double, double)> Waves()
 }
 
 // A plane, seen by a cross of cameras; a partner's grey levels may be brighter and of less contrast.
-class PlaneScene
+class AlignerScene
 {
 public:
-  explicit PlaneScene(const Eigen::Vector2d& slope,
-    const std::function<Eigen::Vector3d(double, double)>& color = Waves(), double gain = 1)
+  explicit AlignerScene(const Eigen::Vector2d& slope,
+    const std::function<Eigen::Vector3d(double, double)>& color = WavesImage(), double gain = 1)
   {
     this->Plane.slope = slope;
     this->Plane.exists = Everywhere();
@@ -71,7 +71,7 @@ PatchPlane FrontoParallel(const Eigen::Vector2d& pixel, double disparity)
 }
 
 // From starts up to a pixel off, in disparity, without its slope.
-void ExpectConvergence(const PlaneScene& scene)
+void ExpectConvergence(const AlignerScene& scene)
 {
   const PatchAligner aligner = scene.Aligner();
   std::mt19937 random(7);
@@ -103,23 +103,23 @@ void ExpectConvergence(const PlaneScene& scene)
 
 TEST(PatchAligner, FrontoParallelPlane)
 {
-  ExpectConvergence(PlaneScene({ 0, 0 }));
+  ExpectConvergence(AlignerScene({ 0, 0 }));
 }
 
 TEST(PatchAligner, SlantedPlanes)
 {
-  ExpectConvergence(PlaneScene({ 0.5, 0 }));
-  ExpectConvergence(PlaneScene({ -0.2, 0.4 }));
+  ExpectConvergence(AlignerScene({ 0.5, 0 }));
+  ExpectConvergence(AlignerScene({ -0.2, 0.4 }));
 }
 
 TEST(PatchAligner, DoesNotCareForBrightnessAndContrast)
 {
-  ExpectConvergence(PlaneScene({ 0.2, 0.1 }, Waves(), 0.6));
+  ExpectConvergence(AlignerScene({ 0.2, 0.1 }, WavesImage(), 0.6));
 }
 
 TEST(PatchAligner, FindsTheSlope)
 {
-  const PlaneScene scene({ 0.4, -0.3 });
+  const AlignerScene scene({ 0.4, -0.3 });
   const Eigen::Vector2d pixel(120, 90), right(121, 90), down(120, 91);
   const double truth = scene.Disparity(pixel);
   const AlignedPatch patch = scene.Aligner().Align(FrontoParallel(pixel, truth));
@@ -130,7 +130,7 @@ TEST(PatchAligner, FindsTheSlope)
 
 TEST(PatchAligner, ParallaxIsTheMovementInThePartner)
 {
-  const PlaneScene scene({ 0, 0 });
+  const AlignerScene scene({ 0, 0 });
   const Eigen::Vector2d pixel(100, 80);
   const double disparity = 1, step = 1e-6;
   double most = 0;
@@ -145,14 +145,14 @@ TEST(PatchAligner, ParallaxIsTheMovementInThePartner)
 
 TEST(PatchAligner, NothingWithoutContrast)
 {
-  const PlaneScene scene({ 0, 0 }, Plain(90, 90, 90));
+  const AlignerScene scene({ 0, 0 }, Plain(90, 90, 90));
   EXPECT_FALSE(scene.Aligner().Align(FrontoParallel({ 120, 90 }, 1)).isGood);
 }
 
 // An edge at the window's rim tells nothing of its middle.
 TEST(PatchAligner, NothingWhereOnlyTheRimHasContrast)
 {
-  const PlaneScene scene({ 0, 0 },
+  const AlignerScene scene({ 0, 0 },
     [](double x, double)
     {
       const double value = x < 0 ? 60 : 180;
@@ -165,7 +165,7 @@ TEST(PatchAligner, NothingWhereOnlyTheRimHasContrast)
 
 TEST(PatchAligner, NothingAtTheImagesRim)
 {
-  const PlaneScene scene({ 0, 0 });
+  const AlignerScene scene({ 0, 0 });
   for (const Eigen::Vector2d& pixel :
     { Eigen::Vector2d(2, 90), Eigen::Vector2d(120, 2), Eigen::Vector2d(238, 90),
       Eigen::Vector2d(120, 179.5), Eigen::Vector2d(-5, -5), Eigen::Vector2d(1e9, 90) })
@@ -176,7 +176,7 @@ TEST(PatchAligner, NothingAtTheImagesRim)
 
 TEST(PatchAligner, NeedsTwoPartners)
 {
-  const PlaneScene scene({ 0, 0 });
+  const AlignerScene scene({ 0, 0 });
   const PatchPlane plane = FrontoParallel({ 120, 90 }, 1);
   EXPECT_FALSE(scene.Aligner({}, 0).Align(plane).isGood);
   EXPECT_FALSE(scene.Aligner({}, 1).Align(plane).isGood);
@@ -185,7 +185,7 @@ TEST(PatchAligner, NeedsTwoPartners)
 
 TEST(PatchAligner, NothingFarFromTheSurface)
 {
-  const PlaneScene scene({ 0, 0 }, RandomSquares(0.01, 3));
+  const AlignerScene scene({ 0, 0 }, RandomSquares(0.01, 3));
   for (const double disparity : { 0.3, 0.6, 1.5, 3.0 })
   {
     EXPECT_FALSE(scene.Aligner().Align(FrontoParallel({ 120, 90 }, disparity)).isGood) << disparity;

@@ -30,7 +30,7 @@ double ValueAt(const cv::Mat1f& image, double x, double y)
     fy * ((1 - fx) * image(top + 1, left) + fx * image(top + 1, left + 1));
 }
 
-Eigen::Vector3d At(const PlaneWarp& warp, double column, double row, double disparity)
+Eigen::Vector3d WarpedAt(const PlaneWarp& warp, double column, double row, double disparity)
 {
   Eigen::Vector3d at;
   for (std::size_t i = 0; i < 3; ++i)
@@ -61,8 +61,8 @@ TEST(WindowWarp, ReadsAsBruteForceDoes)
     for (std::size_t i = 0; i < static_cast<std::size_t>(window.count); ++i)
     {
       const double step = 1e-7;
-      const Eigen::Vector3d at = At(warp, window.column[i], window.row[i], 0);
-      const Eigen::Vector3d moved = At(warp, window.column[i], window.row[i], step);
+      const Eigen::Vector3d at = WarpedAt(warp, window.column[i], window.row[i], 0);
+      const Eigen::Vector3d moved = WarpedAt(warp, window.column[i], window.row[i], step);
       const double value = ValueAt(image, at.x() / at.z(), at.y() / at.z());
       const double slope =
         (ValueAt(image, moved.x() / moved.z(), moved.y() / moved.z()) - value) / step;

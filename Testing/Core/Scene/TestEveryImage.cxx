@@ -10,7 +10,7 @@ namespace
 
 using Triplets = std::vector<std::array<std::string, 3>>;
 
-Cluster Cross(const std::string& name, const std::string& folder)
+Cluster CrossCluster(const std::string& name, const std::string& folder)
 {
   return { name, folder + "c.jpg",
     { { folder + "l.jpg", folder + "c.jpg", folder + "r.jpg" },
@@ -21,7 +21,7 @@ Cluster Cross(const std::string& name, const std::string& folder)
 
 TEST(EveryImage, OfACross)
 {
-  const std::vector<Cluster> turned = ClustersOfEveryImage({ Cross("cross", "") });
+  const std::vector<Cluster> turned = ClustersOfEveryImage({ CrossCluster("cross", "") });
   ASSERT_EQ(turned.size(), 4u);
   EXPECT_EQ(turned[0].name, "cross_l");
   EXPECT_EQ(turned[0].reference, "l.jpg");
@@ -57,9 +57,9 @@ TEST(EveryImage, EachImageOnce)
 
 TEST(EveryImage, NamesAreUnique)
 {
-  Cluster taken = Cross("cross_l", "b/");
+  Cluster taken = CrossCluster("cross_l", "b/");
   taken.triplets.resize(1);
-  const std::vector<Cluster> turned = ClustersOfEveryImage({ Cross("cross", "a/"), taken });
+  const std::vector<Cluster> turned = ClustersOfEveryImage({ CrossCluster("cross", "a/"), taken });
   ASSERT_EQ(turned.size(), 6u);
   EXPECT_EQ(turned[0].name, "cross_l_2"); // cross_l is a cluster of the scene
   EXPECT_EQ(turned[4].name, "cross_l_l");

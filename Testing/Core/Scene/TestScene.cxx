@@ -26,7 +26,7 @@ std::string WithBoard(const std::string& text)
   return R"({ "images": "pictures", "model": "sparse", "board": )" + text + "}";
 }
 
-void ExpectError(const std::string& content, const std::vector<std::string>& words)
+void ExpectSceneError(const std::string& content, const std::vector<std::string>& words)
 {
   TemporaryFolder folder;
   try
@@ -45,7 +45,7 @@ void ExpectError(const std::string& content, const std::vector<std::string>& wor
   }
 }
 
-void WriteModel(const TemporaryFolder& folder, const std::vector<std::string>& images)
+void WriteSceneModel(const TemporaryFolder& folder, const std::vector<std::string>& images)
 {
   folder.Write("sparse/cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
   std::string text;
@@ -152,11 +152,12 @@ TEST(Scene, MissingFile)
 
 TEST(Scene, BrokenJson)
 {
-  ExpectError("", { "JSON" });
-  ExpectError("{ \"images\": ", { "JSON" });
-  ExpectError(R"({ "images": "pictures" "model": "sparse" })", { "JSON", "line 1, column 30" });
-  ExpectError("{\n  \"images\": \"pictures\",\n}", { "JSON", "line 3, column 1." });
-  ExpectError("[]", { "object" });
+  ExpectSceneError("", { "JSON" });
+  ExpectSceneError("{ \"images\": ", { "JSON" });
+  ExpectSceneError(
+    R"({ "images": "pictures" "model": "sparse" })", { "JSON", "line 1, column 30" });
+  ExpectSceneError("{\n  \"images\": \"pictures\",\n}", { "JSON", "line 3, column 1." });
+  ExpectSceneError("[]", { "object" });
 }
 
 TEST(Scene, TruncatedAnywhere)
@@ -164,43 +165,47 @@ TEST(Scene, TruncatedAnywhere)
   const std::string content = WithClusters("[" + cluster + "]");
   for (std::size_t length = 0; length < content.size(); ++length)
   {
-    ExpectError(content.substr(0, length), {});
+    ExpectSceneError(content.substr(0, length), {});
   }
 }
 
 TEST(Scene, UnknownKeysAreNamed)
 {
-  ExpectError(R"({ "images": "a", "model": "b", "colour": 1 })", { "'colour'", "unknown" });
-  ExpectError(WithClusters(R"([{ "name": "one", "reference": "c", "triplets": [], "weight": 1 }])"),
+  ExpectSceneError(R"({ "images": "a", "model": "b", "colour": 1 })", { "'colour'", "unknown" });
+  ExpectSceneError(
+    WithClusters(R"([{ "name": "one", "reference": "c", "triplets": [], "weight": 1 }])"),
     { "'weight'", "unknown" });
-  ExpectError(WithBoard(R"({ "type": "charuco", "size": 1 })"), { "'size'", "unknown" });
+  ExpectSceneError(WithBoard(R"({ "type": "charuco", "size": 1 })"), { "'size'", "unknown" });
 }
 
 TEST(Scene, MissingAndIllTypedKeys)
 {
-  ExpectError(R"({ "images": "a" })", { "'model'", "missing" });
-  ExpectError(R"({ "model": "a" })", { "'images'", "missing" });
-  ExpectError(R"({ "images": 1, "model": "b" })", { "'images'", "expected a non-empty string" });
-  ExpectError(R"({ "images": "a", "model": "" })", { "'model'", "expected a non-empty string" });
-  ExpectError(WithClusters("1"), { "'clusters'", "expected a JSON array" });
-  ExpectError(WithClusters("[1]"), { "'clusters'[0]", "object" });
-  ExpectError(WithClusters("[]"), { "'clusters'", "empty" });
+  ExpectSceneError(R"({ "images": "a" })", { "'model'", "missing" });
+  ExpectSceneError(R"({ "model": "a" })", { "'images'", "missing" });
+  ExpectSceneError(
+    R"({ "images": 1, "model": "b" })", { "'images'", "expected a non-empty string" });
+  ExpectSceneError(
+    R"({ "images": "a", "model": "" })", { "'model'", "expected a non-empty string" });
+  ExpectSceneError(WithClusters("1"), { "'clusters'", "expected a JSON array" });
+  ExpectSceneError(WithClusters("[1]"), { "'clusters'[0]", "object" });
+  ExpectSceneError(WithClusters("[]"), { "'clusters'", "empty" });
 }
 
 TEST(Scene, Triplets)
 {
   const auto withTriplets = [](const std::string& triplets)
   { return WithClusters(R"([{ "name": "one", "reference": "c", "triplets": )" + triplets + "}]"); };
-  ExpectError(withTriplets(R"([["c", "l", "r"]])"), { "'triplets'[0]", "reference c", "middle" });
-  ExpectError(withTriplets(R"([["l", "c"]])"), { "'triplets'[0]", "three images" });
-  ExpectError(withTriplets(R"([["l", "c", "l"]])"), { "'triplets'[0]", "an image twice" });
-  ExpectError(withTriplets(R"([["l", "c", "c"]])"), { "'triplets'[0]", "an image twice" });
-  ExpectError(withTriplets("[]"), { "one", "no triplet" });
+  ExpectSceneError(
+    withTriplets(R"([["c", "l", "r"]])"), { "'triplets'[0]", "reference c", "middle" });
+  ExpectSceneError(withTriplets(R"([["l", "c"]])"), { "'triplets'[0]", "three images" });
+  ExpectSceneError(withTriplets(R"([["l", "c", "l"]])"), { "'triplets'[0]", "an image twice" });
+  ExpectSceneError(withTriplets(R"([["l", "c", "c"]])"), { "'triplets'[0]", "an image twice" });
+  ExpectSceneError(withTriplets("[]"), { "one", "no triplet" });
 }
 
 TEST(Scene, TwoClustersOfOneName)
 {
-  ExpectError(WithClusters("[" + cluster + ", " + cluster + "]"), { "called one" });
+  ExpectSceneError(WithClusters("[" + cluster + ", " + cluster + "]"), { "called one" });
 }
 
 TEST(Scene, ImpossibleBoards)
@@ -210,18 +215,18 @@ TEST(Scene, ImpossibleBoards)
     std::string text = board;
     return WithBoard(text.replace(text.find(from), from.size(), to));
   };
-  ExpectError(changed("15, 14", "15"), { "'squares'", "two numbers" });
-  ExpectError(changed("15, 14", "15, 1.5"), { "'squares'[1]", "expected an integer" });
-  ExpectError(changed("15, 14", "15, -1"), { "'board'", "columns and rows" });
-  ExpectError(changed("0.03", "0"), { "'board'", "positive" });
-  ExpectError(changed("0.0225", "0.04"), { "'board'", "markers" });
-  ExpectError(changed("charuco", "dots"), { "'type'", "dots" });
+  ExpectSceneError(changed("15, 14", "15"), { "'squares'", "two numbers" });
+  ExpectSceneError(changed("15, 14", "15, 1.5"), { "'squares'[1]", "expected an integer" });
+  ExpectSceneError(changed("15, 14", "15, -1"), { "'board'", "columns and rows" });
+  ExpectSceneError(changed("0.03", "0"), { "'board'", "positive" });
+  ExpectSceneError(changed("0.0225", "0.04"), { "'board'", "markers" });
+  ExpectSceneError(changed("charuco", "dots"), { "'type'", "dots" });
 }
 
 TEST(Scene, ImagesOfTheModel)
 {
   TemporaryFolder folder;
-  WriteModel(folder, { "l", "c", "r", "u", "d" });
+  WriteSceneModel(folder, { "l", "c", "r", "u", "d" });
   const Scene scene = ReadScene(folder.Write("scene.json", WithClusters("[" + cluster + "]")));
   const std::vector<CalibratedImage> images = ReadSceneImages(scene);
   ASSERT_EQ(images.size(), 5u);
@@ -231,7 +236,7 @@ TEST(Scene, ImagesOfTheModel)
 TEST(Scene, ClusterThatNamesAnUnknownImage)
 {
   TemporaryFolder folder;
-  WriteModel(folder, { "l", "c", "r", "u" });
+  WriteSceneModel(folder, { "l", "c", "r", "u" });
   const Scene scene = ReadScene(folder.Write("scene.json", WithClusters("[" + cluster + "]")));
   try
   {

@@ -120,7 +120,7 @@ void ExpectTheModel(const SparseModel& model)
 }
 
 // The message of the error, which must name all the words.
-void ExpectError(const TemporaryFolder& folder, const std::vector<std::string>& words)
+void ExpectColmapError(const TemporaryFolder& folder, const std::vector<std::string>& words)
 {
   try
   {
@@ -144,7 +144,7 @@ void ExpectTextError(
   TemporaryFolder folder;
   WriteTextModel(folder);
   folder.Write(file, content);
-  ExpectError(folder, words);
+  ExpectColmapError(folder, words);
 }
 
 CalibratedImage ImageWithCamera(const std::string& camera)
@@ -259,14 +259,14 @@ TEST(ColmapModel, NoSuchFolder)
 TEST(ColmapModel, EmptyFolder)
 {
   TemporaryFolder folder;
-  ExpectError(folder, { folder.Path(), "cameras.txt" });
+  ExpectColmapError(folder, { folder.Path(), "cameras.txt" });
 }
 
 TEST(ColmapModel, MissingImages)
 {
   TemporaryFolder folder;
   folder.Write("cameras.txt", textCameras);
-  ExpectError(folder, { "images.txt" });
+  ExpectColmapError(folder, { "images.txt" });
 }
 
 TEST(ColmapModel, UnsupportedModel)
@@ -280,7 +280,7 @@ TEST(ColmapModel, UnsupportedModel)
   std::string cameras = BinaryCameras();
   cameras[12] = 11;
   folder.Write("cameras.bin", cameras);
-  ExpectError(folder, { "cameras.bin", "number 11", "not supported" });
+  ExpectColmapError(folder, { "cameras.bin", "number 11", "not supported" });
 }
 
 TEST(ColmapModel, MalformedCameras)
@@ -334,7 +334,7 @@ TEST(ColmapModel, TruncatedBinary)
     for (std::size_t length = 0; length < content.size(); ++length)
     {
       folder.Write(name, content.substr(0, length));
-      ExpectError(folder, { name, "truncated" });
+      ExpectColmapError(folder, { name, "truncated" });
     }
   }
 }
@@ -344,7 +344,7 @@ TEST(ColmapModel, MoreThanTheCountsSay)
   TemporaryFolder folder;
   WriteBinaryModel(folder);
   folder.Write("images.bin", BinaryImages() + "x");
-  ExpectError(folder, { "images.bin", "more" });
+  ExpectColmapError(folder, { "images.bin", "more" });
 }
 
 // Any byte may be any value: that may go unnoticed or be an error, but must not crash or allocate

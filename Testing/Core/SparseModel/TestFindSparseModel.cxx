@@ -15,7 +15,7 @@ using namespace freespace;
 namespace
 {
 
-void WriteModel(const TemporaryFolder& folder, const std::string& place, int images)
+void WriteModelAt(const TemporaryFolder& folder, const std::string& place, int images)
 {
   std::filesystem::create_directories(folder.Path(place));
   WriteColmapModel(MakeSyntheticModel(images, 20), folder.Path(place), ColmapFormat::Binary);
@@ -26,8 +26,8 @@ void WriteModel(const TemporaryFolder& folder, const std::string& place, int ima
 TEST(FindSparseModel, AModelIsItself)
 {
   const TemporaryFolder folder;
-  WriteModel(folder, "m", 2);
-  WriteModel(folder, "m/0", 9);
+  WriteModelAt(folder, "m", 2);
+  WriteModelAt(folder, "m/0", 9);
   std::string told = "?";
   EXPECT_EQ(FindSparseModel(folder.Path("m"), &told), folder.Path("m"));
   EXPECT_EQ(told, "");
@@ -37,9 +37,9 @@ TEST(FindSparseModel, AModelIsItself)
 TEST(FindSparseModel, TheLargestBelowIsTaken)
 {
   const TemporaryFolder folder;
-  WriteModel(folder, "colmap/sparse/0", 2);
-  WriteModel(folder, "colmap/sparse/1", 7);
-  WriteModel(folder, "colmap/sparse/2", 3);
+  WriteModelAt(folder, "colmap/sparse/0", 2);
+  WriteModelAt(folder, "colmap/sparse/1", 7);
+  WriteModelAt(folder, "colmap/sparse/2", 3);
   std::string told;
   EXPECT_EQ(FindSparseModel(folder.Path("colmap"), &told), folder.Path("colmap/sparse/1"));
   EXPECT_NE(told.find("the largest of 3"), std::string::npos);
@@ -50,10 +50,10 @@ TEST(FindSparseModel, TheLargestBelowIsTaken)
 TEST(FindSparseModel, NothingIsFoundFarBelowOrBesideAScene)
 {
   const TemporaryFolder folder;
-  WriteModel(folder, "deep/a/b/c/d", 2);
+  WriteModelAt(folder, "deep/a/b/c/d", 2);
   EXPECT_EQ(FindSparseModel(folder.Path("deep")), folder.Path("deep"));
   EXPECT_FALSE(IsSparseModel(folder.Path("deep")));
-  WriteModel(folder, "set/sparse", 2);
+  WriteModelAt(folder, "set/sparse", 2);
   folder.Write("set/scene.json", R"({ "images": "images", "model": "sparse" })");
   EXPECT_FALSE(IsSparseModel(folder.Path("set")));
 }
@@ -61,7 +61,7 @@ TEST(FindSparseModel, NothingIsFoundFarBelowOrBesideAScene)
 TEST(FindSparseModel, AFolderIsAScene)
 {
   const TemporaryFolder folder;
-  WriteModel(folder, "set/sparse/0", 2);
+  WriteModelAt(folder, "set/sparse/0", 2);
   std::filesystem::create_directories(folder.Path("set/images"));
   const Scene scene = ReadScene(folder.Path("set/sparse/0"));
   EXPECT_EQ(scene.ModelFolder(), folder.Path("set/sparse/0"));

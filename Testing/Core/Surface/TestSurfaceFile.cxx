@@ -15,9 +15,9 @@ using namespace freespace;
 namespace
 {
 
-using Parse = SurfaceFile (*)(const std::string&, const std::string&);
+using ParseSurface = SurfaceFile (*)(const std::string&, const std::string&);
 
-std::string FaultOf(Parse parse, const std::string& content)
+std::string SurfaceFaultOf(ParseSurface parse, const std::string& content)
 {
   try
   {
@@ -134,20 +134,22 @@ TEST(SurfaceFile, PLYIndicesOutOfRange)
 {
   for (const char* face : { "3 0 1 3", "3 0 1 -1", "3 0 1 99999999", "3 0 1 1e18", "3 0 1 0.5" })
   {
-    EXPECT_TRUE(Has(FaultOf(ParsePLY, plyText + corners + face), "none of the 3 points")) << face;
+    EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, plyText + corners + face), "none of the 3 points"))
+      << face;
   }
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, plyText + corners + "2 0 1"), "fewer than three"));
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, plyText + corners + "255 0 1 2"), "truncated"));
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, plyText + corners + "-3 0 1 2"), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, plyText + corners + "2 0 1"), "fewer than three"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, plyText + corners + "255 0 1 2"), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, plyText + corners + "-3 0 1 2"), "truncated"));
 }
 
 TEST(SurfaceFile, PLYThatCountsMoreThanItHolds)
 {
   std::string most = plyText;
   most.replace(most.find("vertex 3"), 8, "vertex 18446744073709551615");
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, most + corners + "3 0 1 2\n"), "truncated"));
-  EXPECT_TRUE(Has(
-    FaultOf(ParsePLY, "ply\nformat ascii 1.0\nelement face 4000000000\nend_header\n"), "truncated"))
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, most + corners + "3 0 1 2\n"), "truncated"));
+  EXPECT_TRUE(
+    Has(SurfaceFaultOf(ParsePLY, "ply\nformat ascii 1.0\nelement face 4000000000\nend_header\n"),
+      "truncated"))
     << "of no bytes each";
 }
 
@@ -156,14 +158,17 @@ TEST(SurfaceFile, PLYHeaders)
   for (const std::string& content : { std::string(), std::string("plywood\n"),
          std::string("ply\nformat ascii 1.0\n"), plyText.substr(0, plyText.size() - 12) })
   {
-    EXPECT_TRUE(Has(FaultOf(ParsePLY, content), "truncated")) << content;
+    EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY, content), "truncated")) << content;
   }
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, "ply\nformat ebcdic 1.0\nend_header\n"), "no format 'ebcdic'"));
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, "ply\nproperty float x\nend_header\n"), "of no element"));
-  EXPECT_TRUE(Has(FaultOf(ParsePLY, "ply\nelement face 1\nproperty list float int i\nend_header\n"),
-    "no whole number"));
-  EXPECT_TRUE(Has(
-    FaultOf(ParsePLY, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
+  EXPECT_TRUE(
+    Has(SurfaceFaultOf(ParsePLY, "ply\nformat ebcdic 1.0\nend_header\n"), "no format 'ebcdic'"));
+  EXPECT_TRUE(
+    Has(SurfaceFaultOf(ParsePLY, "ply\nproperty float x\nend_header\n"), "of no element"));
+  EXPECT_TRUE(
+    Has(SurfaceFaultOf(ParsePLY, "ply\nelement face 1\nproperty list float int i\nend_header\n"),
+      "no whole number"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParsePLY,
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
     "no y"));
 }
 
@@ -181,11 +186,11 @@ TEST(SurfaceFile, OBJIndicesOutOfRange)
   for (const char* face : { "0 0 0", "1 2 4", "1 2 -4", "1 2 x", "1 2 99999999999999999999" })
   {
     const std::string content = std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf ") + face;
-    EXPECT_TRUE(Has(FaultOf(ParseOBJ, content), "none of the 3 points")) << face;
+    EXPECT_TRUE(Has(SurfaceFaultOf(ParseOBJ, content), "none of the 3 points")) << face;
   }
-  EXPECT_TRUE(Has(FaultOf(ParseOBJ, "v 0 0\n"), "truncated"));
-  EXPECT_TRUE(Has(FaultOf(ParseOBJ, "v 0 0 zero\n"), "'zero'"));
-  EXPECT_TRUE(Has(FaultOf(ParseOBJ, std::string("v\0v\n", 4)), "not text"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseOBJ, "v 0 0\n"), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseOBJ, "v 0 0 zero\n"), "'zero'"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseOBJ, std::string("v\0v\n", 4)), "not text"));
 }
 
 TEST(SurfaceFile, BinarySTL)
@@ -193,9 +198,9 @@ TEST(SurfaceFile, BinarySTL)
   const SurfaceFile surface = ParseSTL(BinarySTL(2), "");
   EXPECT_EQ(surface.points.size(), 4u) << "equal corners are one point";
   EXPECT_EQ(surface.ends, (std::vector<std::int64_t>{ 3, 6 }));
-  EXPECT_TRUE(Has(FaultOf(ParseSTL, BinarySTL(2).substr(0, 180)), "truncated"));
-  EXPECT_TRUE(Has(FaultOf(ParseSTL, BinarySTL(2).substr(0, 83)), "truncated"));
-  EXPECT_TRUE(Has(FaultOf(ParseSTL, ""), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseSTL, BinarySTL(2).substr(0, 180)), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseSTL, BinarySTL(2).substr(0, 83)), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseSTL, ""), "truncated"));
 }
 
 TEST(SurfaceFile, TextSTL)
@@ -203,14 +208,14 @@ TEST(SurfaceFile, TextSTL)
   const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                             "vertex 0 1 0.5\nendloop\nendfacet\n";
   EXPECT_EQ(ParseSTL("solid a\n" + facet + "endsolid a\n", "").points.size(), 3u);
-  EXPECT_TRUE(Has(FaultOf(ParseSTL, "solid a\n" + facet), "truncated"));
-  EXPECT_TRUE(Has(FaultOf(ParseSTL, "solid a\nvertex 0 0 0\nendsolid"), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseSTL, "solid a\n" + facet), "truncated"));
+  EXPECT_TRUE(Has(SurfaceFaultOf(ParseSTL, "solid a\nvertex 0 0 0\nendsolid"), "truncated"));
 }
 
 // Whatever a damaged file says, it ends in a surface whose corners are points, or in an Error.
 TEST(SurfaceFile, DamagedFiles)
 {
-  const std::pair<Parse, std::string> seeds[] = { { ParsePLY, plyText + corners + "3 0 1 2\n" },
+  const std::pair<ParseSurface, std::string> seeds[] = { { ParsePLY, plyText + corners + "3 0 1 2\n" },
     { ParsePLY, BinaryPLY(false) }, { ParseOBJ, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" },
     { ParseSTL, BinarySTL(3) },
     { ParseSTL, "solid\nvertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endsolid" } };

@@ -14,7 +14,7 @@ namespace
 {
 
 // The message of the Error that an action on a document of this text throws, without the file's name.
-std::string ErrorOf(const std::string& text, const std::function<void(const JsonNode&)>& action)
+std::string JsonErrorOf(const std::string& text, const std::function<void(const JsonNode&)>& action)
 {
   const TemporaryFolder folder;
   const std::string file = folder.Write("a.json", text), begin = "Cannot read " + file;
@@ -65,11 +65,11 @@ TEST(JsonNode, ReadsEachKindOfValue)
 TEST(JsonNode, ErrorsSayWhatWasExpectedAndWhere)
 {
   const auto at = [](const char* key) { return [key](const JsonNode& root) { root.At(key); }; };
-  EXPECT_EQ(ErrorOf("{}", at("a")), ": the key 'a' is missing.");
-  EXPECT_EQ(ErrorOf("[]", [](const JsonNode& root) { root.ExpectObject({}); }),
+  EXPECT_EQ(JsonErrorOf("{}", at("a")), ": the key 'a' is missing.");
+  EXPECT_EQ(JsonErrorOf("[]", [](const JsonNode& root) { root.ExpectObject({}); }),
     ": expected a JSON object.");
   EXPECT_EQ(
-    ErrorOf(R"({ "a": 1, "b": 2 })", [](const JsonNode& root) { root.ExpectObject({ "a" }); }),
+    JsonErrorOf(R"({ "a": 1, "b": 2 })", [](const JsonNode& root) { root.ExpectObject({ "a" }); }),
     ": the key 'b' is unknown.");
   const std::string nested = R"({ "a": [ { "b": 1.5 } ] })";
   const auto b = [](const JsonNode& root) { return root.At("a").Elements()[0].At("b"); };
@@ -80,24 +80,24 @@ TEST(JsonNode, ErrorsSayWhatWasExpectedAndWhere)
       { "expected a non-negative integer", [&](const JsonNode& root) { (void)b(root).Id(); } },
       { "expected a JSON array", [&](const JsonNode& root) { (void)b(root).Elements(); } } })
   {
-    const std::string message = ErrorOf(nested, action);
+    const std::string message = JsonErrorOf(nested, action);
     EXPECT_NE(message.find(expected), std::string::npos) << message;
     EXPECT_NE(message.find('a'), std::string::npos) << "the way to the value: " << message;
     EXPECT_NE(message.find('b'), std::string::npos) << message;
   }
-  EXPECT_NE(ErrorOf("[1, 2]", [](const JsonNode& root) { (void)root.Numbers(3); })
+  EXPECT_NE(JsonErrorOf("[1, 2]", [](const JsonNode& root) { (void)root.Numbers(3); })
               .find("expected 3 numbers, not 2"),
     std::string::npos);
-  EXPECT_NE(ErrorOf(R"(["x"])", [](const JsonNode& root) { (void)root.Numbers(1); })
+  EXPECT_NE(JsonErrorOf(R"(["x"])", [](const JsonNode& root) { (void)root.Numbers(1); })
               .find("expected a number"),
     std::string::npos);
 }
 
 TEST(JsonNode, TextThatIsNotJsonNamesLineAndColumn)
 {
-  EXPECT_EQ(ErrorOf("{\n  \"a\": }\n", Nothing),
+  EXPECT_EQ(JsonErrorOf("{\n  \"a\": }\n", Nothing),
     ": it is not valid JSON, the fault is in line 2, column 8.");
-  EXPECT_NE(ErrorOf("", Nothing).find("not valid JSON"), std::string::npos);
-  EXPECT_EQ(ErrorOf("[1e999]", Nothing), ": one of its numbers is too large.");
+  EXPECT_NE(JsonErrorOf("", Nothing).find("not valid JSON"), std::string::npos);
+  EXPECT_EQ(JsonErrorOf("[1e999]", Nothing), ": one of its numbers is too large.");
   EXPECT_THROW(JsonDocument("/no/such/file.json"), Error);
 }

@@ -18,7 +18,7 @@ std::vector<double> Read(const std::string& text, std::size_t columns = 3)
   return ReadNumberTable(file, "points", columns, [] {});
 }
 
-std::string ErrorOf(const std::string& text)
+std::string TableErrorOf(const std::string& text)
 {
   try
   {
@@ -49,20 +49,20 @@ TEST(NumberTable, AHeaderIsSkippedOnce)
   EXPECT_EQ(Read("x,y,z\n1,2,3\n"), (std::vector<double>{ 1, 2, 3 }));
   EXPECT_EQ(Read("\n# x y z\n1,2,3\n"), (std::vector<double>{ 1, 2, 3 }));
   EXPECT_TRUE(Read("x,y,z\n").empty()) << "a table without rows";
-  EXPECT_EQ(ErrorOf("x,y,z\nx,y,z\n1,2,3\n"), "'points' has no 3 numbers in line 2.");
-  EXPECT_EQ(ErrorOf("1e3;2;3\n"), "'points' has no 3 numbers in line 1.")
+  EXPECT_EQ(TableErrorOf("x,y,z\nx,y,z\n1,2,3\n"), "'points' has no 3 numbers in line 2.");
+  EXPECT_EQ(TableErrorOf("1e3;2;3\n"), "'points' has no 3 numbers in line 1.")
     << "no header: it begins with a number";
 }
 
 TEST(NumberTable, OtherRowsAreErrorsThatNameTheLine)
 {
-  EXPECT_EQ(ErrorOf(""), "'points' is empty: there is no line 1.");
-  EXPECT_EQ(ErrorOf("\n \n"), "'points' is empty: there is no line 1.");
-  EXPECT_EQ(ErrorOf("1,2,3\n1,2\n"), "'points' has no 3 numbers in line 2.");
-  EXPECT_EQ(ErrorOf("1,2,3\n\n1,2,3,4\n"), "'points' has no 3 numbers in line 3.");
-  EXPECT_EQ(ErrorOf("1,2,3\n1,2,nan\n"), "'points' has no 3 numbers in line 2.");
-  EXPECT_EQ(ErrorOf("1,2,3\n1,2,x\n"), "'points' has no 3 numbers in line 2.");
-  EXPECT_EQ(ErrorOf(std::string(100000, '1')),
+  EXPECT_EQ(TableErrorOf(""), "'points' is empty: there is no line 1.");
+  EXPECT_EQ(TableErrorOf("\n \n"), "'points' is empty: there is no line 1.");
+  EXPECT_EQ(TableErrorOf("1,2,3\n1,2\n"), "'points' has no 3 numbers in line 2.");
+  EXPECT_EQ(TableErrorOf("1,2,3\n\n1,2,3,4\n"), "'points' has no 3 numbers in line 3.");
+  EXPECT_EQ(TableErrorOf("1,2,3\n1,2,nan\n"), "'points' has no 3 numbers in line 2.");
+  EXPECT_EQ(TableErrorOf("1,2,3\n1,2,x\n"), "'points' has no 3 numbers in line 2.");
+  EXPECT_EQ(TableErrorOf(std::string(100000, '1')),
     "'points' is not a table of numbers: one of its lines is too long.");
 }
 

@@ -13,7 +13,7 @@ using namespace freespace;
 namespace
 {
 
-std::string FaultOf(const std::function<void()>& action)
+std::string TextFaultOf(const std::function<void()>& action)
 {
   try
   {
@@ -81,11 +81,11 @@ TEST(TextSource, FaultsNameFileLineAndField)
   text.NextLine();
   text.NextLine();
   text.Number<int>("a number");
-  EXPECT_EQ(FaultOf([&] { text.Number<int>("a width"); }),
+  EXPECT_EQ(TextFaultOf([&] { text.Number<int>("a width"); }),
     "Cannot read " + file + ", line 2: 'x' is not a width.");
-  EXPECT_EQ(FaultOf([&] { text.Field("a name"); }),
+  EXPECT_EQ(TextFaultOf([&] { text.Field("a name"); }),
     "Cannot read " + file + ", line 2: it ends before a name.");
-  EXPECT_EQ(FaultOf([&] { text.Fail("wrong"); }), "Cannot read " + file + ", line 2: wrong.");
+  EXPECT_EQ(TextFaultOf([&] { text.Fail("wrong"); }), "Cannot read " + file + ", line 2: wrong.");
 }
 
 TEST(TextSource, EmptyFile)
@@ -101,8 +101,8 @@ TEST(TextSource, MissingFileAndFolder)
 {
   const TemporaryFolder folder;
   const std::string absent = folder.Path("absent.txt");
-  EXPECT_NE(FaultOf([&] { TextSource text(absent); }).find(absent), std::string::npos);
-  EXPECT_NE(FaultOf([&] { ReadWholeFile(folder.Path()); }), "");
+  EXPECT_NE(TextFaultOf([&] { TextSource text(absent); }).find(absent), std::string::npos);
+  EXPECT_NE(TextFaultOf([&] { ReadWholeFile(folder.Path()); }), "");
   const std::string bytes("a\0b\n", 4);
   EXPECT_EQ(ReadWholeFile(folder.Write("bytes", bytes)), bytes);
 }

@@ -18,7 +18,7 @@ XmlNode Parse(const std::string& text)
 }
 
 // The message of the Error that the text gives.
-std::string ErrorOf(const std::string& text)
+std::string XmlErrorOf(const std::string& text)
 {
   try
   {
@@ -33,7 +33,7 @@ std::string ErrorOf(const std::string& text)
 
 void ExpectFault(const std::string& text, const std::string& fault)
 {
-  const std::string message = ErrorOf(text);
+  const std::string message = XmlErrorOf(text);
   EXPECT_NE(message.find(fault), std::string::npos) << message;
   EXPECT_NE(message.find("a.xml, line "), std::string::npos) << message;
 }

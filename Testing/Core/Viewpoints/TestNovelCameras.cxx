@@ -14,7 +14,7 @@ namespace
 
 constexpr double degree = M_PI / 180;
 
-Camera On(double azimuth, double elevation, double distance, const Eigen::Vector3d& middle)
+Camera PlaceAround(double azimuth, double elevation, double distance, const Eigen::Vector3d& middle)
 {
   Camera like;
   like.K << 800, 0, 320, 0, 800, 240, 0, 0, 1;
@@ -54,7 +54,7 @@ View Seeing(const Camera& camera, const Eigen::Vector3d& middle)
 TEST(LookAt, PutsTheMiddleInTheMiddleAndKeepsTheHorizon)
 {
   const Eigen::Vector3d middle(1, 2, 3);
-  const Camera camera = On(0.7, 0.4, 5, middle);
+  const Camera camera = PlaceAround(0.7, 0.4, 5, middle);
   EXPECT_TRUE(camera.Project(middle).isApprox(Eigen::Vector2d(320, 240), 1e-12));
   EXPECT_NEAR(camera.Depth(middle), 5, 1e-12);
   EXPECT_NEAR((camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
@@ -69,7 +69,7 @@ TEST(NovelCameras, AreBesideTheCamerasOfARingAndHoldAllFeatures)
   std::vector<View> ring;
   for (int i = 0; i < 6; ++i)
   {
-    ring.push_back(Seeing(On(i * 60 * degree, 30 * degree, 2, middle), middle));
+    ring.push_back(Seeing(PlaceAround(i * 60 * degree, 30 * degree, 2, middle), middle));
   }
   const std::vector<Camera> novel = NovelCameras(ring, 3);
   ASSERT_EQ(novel.size(), 3u);
@@ -94,9 +94,9 @@ TEST(NovelCameras, AreBesideTheCamerasOfARingAndHoldAllFeatures)
 TEST(NovelCameras, BeginBesideTheViewThatSeesMost)
 {
   const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  View poor = Seeing(On(0, 0.4, 2, middle), middle);
+  View poor = Seeing(PlaceAround(0, 0.4, 2, middle), middle);
   poor.points.resize(poor.points.size() / 2);
-  const View good = Seeing(On(90 * degree, 0.4, 2, middle), middle);
+  const View good = Seeing(PlaceAround(90 * degree, 0.4, 2, middle), middle);
   const std::vector<Camera> novel = NovelCameras({ poor, good }, 1);
   ASSERT_EQ(novel.size(), 1u);
   EXPECT_NEAR(AngleBetween(novel[0], good.camera), 15 * degree, 1e-6);
@@ -105,8 +105,8 @@ TEST(NovelCameras, BeginBesideTheViewThatSeesMost)
 TEST(NovelCameras, AreHalfwayBetweenNearNeighbours)
 {
   const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  const View a = Seeing(On(0, 0, 2, middle), middle);
-  const View b = Seeing(On(20 * degree, 0, 2, middle), middle);
+  const View a = Seeing(PlaceAround(0, 0, 2, middle), middle);
+  const View b = Seeing(PlaceAround(20 * degree, 0, 2, middle), middle);
   const std::vector<Camera> novel = NovelCameras({ a, b }, 1);
   ASSERT_EQ(novel.size(), 1u);
   EXPECT_NEAR(AngleBetween(novel[0], a.camera), 10 * degree, 1e-6);
@@ -116,7 +116,7 @@ TEST(NovelCameras, AreHalfwayBetweenNearNeighbours)
 TEST(NovelCameras, StepAsideFromASingleOne)
 {
   const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  const View only = Seeing(On(0.3, 0.5, 2, middle), middle);
+  const View only = Seeing(PlaceAround(0.3, 0.5, 2, middle), middle);
   const std::vector<Camera> novel = NovelCameras({ only, only }, 2);
   ASSERT_EQ(novel.size(), 1u) << "one place, not the same twice";
   EXPECT_NEAR(AngleBetween(novel[0], only.camera), 15 * degree, 1e-9);
@@ -129,7 +129,7 @@ TEST(NovelCameras, StayFiniteAlongAFilm)
   std::vector<View> film;
   for (int i = 0; i < 40; ++i)
   {
-    film.push_back(Seeing(On(i * degree, 0.2, 1, middle), middle));
+    film.push_back(Seeing(PlaceAround(i * degree, 0.2, 1, middle), middle));
   }
   for (const Camera& camera : NovelCameras(film, 2))
   {
@@ -140,7 +140,7 @@ TEST(NovelCameras, StayFiniteAlongAFilm)
 TEST(NovelCameras, StraightFromAbove)
 {
   View above;
-  above.camera = On(0, 0, 1, Eigen::Vector3d::Zero());
+  above.camera = PlaceAround(0, 0, 1, Eigen::Vector3d::Zero());
   above.camera.R = Eigen::Vector3d(1, -1, -1).asDiagonal();
   above.camera.t = Eigen::Vector3d(0, 0, 2);
   const std::vector<Camera> novel =
@@ -157,7 +157,7 @@ TEST(NovelCameras, DoNotLookFromBehind)
   std::vector<View> views;
   for (int i = -2; i <= 2; ++i)
   {
-    Camera camera = On(0, 0, 4, Eigen::Vector3d(0, i, 0));
+    Camera camera = PlaceAround(0, 0, 4, Eigen::Vector3d(0, i, 0));
     View view;
     view.camera = camera;
     for (int k = 0; k < 100; ++k)

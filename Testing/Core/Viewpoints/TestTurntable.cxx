@@ -11,7 +11,7 @@ using namespace freespace;
 namespace
 {
 
-Camera LookAt(const Eigen::Vector3d& from, const Eigen::Vector3d& at)
+Camera LookFrom(const Eigen::Vector3d& from, const Eigen::Vector3d& at)
 {
   Camera camera;
   camera.width = 100;
@@ -33,7 +33,7 @@ TEST(Turntable, GoesAroundWhatTheCamerasLookAt)
   for (const double angle : { 0.0, 0.5, 1.2, 2.0 }) // some of one side only
   {
     cameras.push_back(
-      LookAt(middle + Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 2), middle));
+      LookFrom(middle + Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 2), middle));
   }
   const std::vector<Camera> path = TurntableCameras(cameras, 8);
   ASSERT_EQ(path.size(), 8u);
@@ -52,7 +52,7 @@ TEST(Turntable, GoesAroundWhatTheCamerasLookAt)
 TEST(Turntable, NeedsAMiddle)
 {
   EXPECT_THROW(TurntableCameras({}, 4), Error);
-  const Camera one = LookAt({ 4, 0, 2 }, { 0, 0, 0 });
+  const Camera one = LookFrom({ 4, 0, 2 }, { 0, 0, 0 });
   EXPECT_THROW(TurntableCameras({ one, one }, 4), Error);
 }
 
@@ -63,7 +63,7 @@ TEST(Turntable, IsFarEnoughForAllPictures)
   for (const double angle : { 0.0, 1.0, 2.0, 4.0 })
   {
     cameras.push_back(
-      LookAt(middle + Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 2), middle));
+      LookFrom(middle + Eigen::Vector3d(4 * std::cos(angle), 4 * std::sin(angle), 2), middle));
   }
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 8; ++i)

@@ -17,7 +17,7 @@ Camera Front(int scale = 1)
 }
 
 // Adds a square of n x n points in the plane z = depth, |x|, |y| <= half.
-void AddSquare(TriangleMesh& mesh, double half, double depth, int n)
+void AddGrid(TriangleMesh& mesh, double half, double depth, int n)
 {
   const int first = static_cast<int>(mesh.points.size());
   for (int i = 0; i < n * n; ++i)
@@ -40,8 +40,8 @@ TEST(VisiblePoints, WhatIsInFrontHidesWhatIsBehind)
   for (const int scale : { 1, 20 }) // larger than the depth buffer, too
   {
     TriangleMesh mesh;
-    AddSquare(mesh, 0.5, 2, 9);
-    AddSquare(mesh, 1.9, 4, 39); // 0.1 apart
+    AddGrid(mesh, 0.5, 2, 9);
+    AddGrid(mesh, 1.9, 4, 39); // 0.1 apart
     int front = 0, behind = 0;
     for (const Eigen::Vector3d& point : VisiblePoints(mesh, Front(scale)))
     {
@@ -60,8 +60,8 @@ TEST(VisiblePoints, WhatIsInFrontHidesWhatIsBehind)
 TEST(VisiblePoints, OnlyWithinTheImageAndInFrontOfTheCamera)
 {
   TriangleMesh mesh;
-  AddSquare(mesh, 2, 1, 41); // 0.1 apart; the image shows |x|, |y| <= 0.5
-  AddSquare(mesh, 0.2, -1, 5);
+  AddGrid(mesh, 2, 1, 41); // 0.1 apart; the image shows |x|, |y| <= 0.5
+  AddGrid(mesh, 0.2, -1, 5);
   const auto seen = VisiblePoints(mesh, Front());
   EXPECT_GE(seen.size(), 9u * 9u);
   EXPECT_LE(seen.size(), 11u * 11u);
