@@ -50,8 +50,13 @@ if(FREESPACE_DEBIAN_FOLDERS)
   install(FILES README.md ARCHITECTURE.md DESTINATION share/doc/libfreespace-dev COMPONENT development)
 endif()
 
+# Loaded at run time, which shlibdeps does not see.
+set(rendered "")
+if(VTK_VERSION VERSION_LESS 9.4)
+  set(rendered "libosmesa6")
+endif()
 freespace_package(runtime ${freespace_libraries} libs "surfaces from photographs - libraries"
-  "This package contains the libraries." "")
+  "This package contains the libraries." "${rendered}")
 string(CONCAT needed "${same_version}, libvtk9-dev, libeigen3-dev, libcgal-dev, libopencv-dev, "
   "libopencv-contrib-dev, libceres-dev, libnanoflann-dev, nlohmann-json3-dev, libjpeg-dev, libexpat1-dev")
 freespace_package(development libfreespace-dev libdevel "surfaces from photographs - development files"

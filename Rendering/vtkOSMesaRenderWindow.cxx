@@ -2,19 +2,10 @@
 #include "vtkOSMesaRenderWindow.h"
 
 #include "OSMesa/GLDispatch.h"
+#include "OSMesa/OSMesaLibrary.h"
 
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkObjectFactory.h>
-
-#include "vtk_glew.h"
-// glew takes away the macro that osmesa.h needs.
-#ifndef GLAPI
-#define GLAPI extern
-#endif
-#ifndef APIENTRY
-#define APIENTRY GLAPIENTRY
-#endif
-#include <GL/osmesa.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -45,10 +36,10 @@ CurrentContext GetCurrentContext()
   {
     return current; // with a GLX context of Mesa's, OSMesa would take that for one of its own
   }
-  current.context = OSMesaGetCurrentContext();
+  current.context = freespace::LoadOSMesa().currentContext();
   GLint format = 0;
   if (current.context &&
-    !OSMesaGetColorBuffer(
+    !freespace::LoadOSMesa().colorBuffer(
       current.context, &current.width, &current.height, &format, &current.pixels))
   {
     current.context = nullptr;
@@ -85,7 +76,7 @@ OSMesaContext CreateContext()
   const int attributes[] = { OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_STENCIL_BITS,
     8, OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
     OSMESA_CONTEXT_MINOR_VERSION, 2, 0 };
-  return OSMesaCreateContextAttribs(attributes, nullptr);
+  return freespace::LoadOSMesa().createContext(attributes, nullptr);
 }
 
 }
@@ -138,7 +129,7 @@ void vtkOSMesaRenderWindow::Finalize()
     this->Superclass::Finalize();
   }
   this->ReleaseCurrent();
-  OSMesaDestroyContext(state.context);
+  freespace::LoadOSMesa().destroyContext(state.context);
   state = InternalState();
   this->Initialized = false;
   this->GlewInitValid = false;
@@ -160,11 +151,14 @@ void vtkOSMesaRenderWindow::MakeCurrent()
   }
   if (!state.context && !state.failed)
   {
-    state.context = CreateContext();
+    const bool isLoaded = freespace::LoadOSMesa().IsLoaded();
+    state.context = isLoaded ? CreateContext() : nullptr;
     state.failed = !state.context;
     if (state.failed)
     {
-      vtkErrorMacro("libOSMesa gave no OpenGL 3.2 context.");
+      vtkErrorMacro(<< (isLoaded
+                        ? "libOSMesa gave no OpenGL 3.2 context."
+                        : "Pictures need libOSMesa, which is not installed or not whole."));
     }
   }
   const int width = std::max(this->Size[0], 1);
@@ -184,7 +178,8 @@ void vtkOSMesaRenderWindow::MakeCurrent()
   {
     freespace::LeaveGLX();
   }
-  if (!OSMesaMakeCurrent(state.context, state.pixels.data(), GL_UNSIGNED_BYTE, width, height))
+  if (!freespace::LoadOSMesa().makeCurrent(
+        state.context, state.pixels.data(), GL_UNSIGNED_BYTE, width, height))
   {
     vtkErrorMacro("libOSMesa cannot render to " << width << "x" << height << " pixels.");
   }
@@ -197,15 +192,17 @@ void vtkOSMesaRenderWindow::MakeCurrent()
 
 bool vtkOSMesaRenderWindow::IsCurrent()
 {
-  return this->Internals->context && OSMesaGetCurrentContext() == this->Internals->context &&
+  return this->Internals->context &&
+    freespace::LoadOSMesa().currentContext() == this->Internals->context &&
     freespace::DispatchesToOSMesa();
 }
 
 void vtkOSMesaRenderWindow::ReleaseCurrent()
 {
-  if (this->Internals->context && OSMesaGetCurrentContext() == this->Internals->context)
+  if (this->Internals->context &&
+    freespace::LoadOSMesa().currentContext() == this->Internals->context)
   {
-    OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    freespace::LoadOSMesa().makeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
     freespace::StopDispatch();
   }
 }
@@ -266,7 +263,7 @@ void vtkOSMesaRenderWindow::PopContext()
     this->ReleaseCurrent();
     return;
   }
-  OSMesaMakeCurrent(
+  freespace::LoadOSMesa().makeCurrent(
     previous.context, previous.pixels, GL_UNSIGNED_BYTE, previous.width, previous.height);
   freespace::DispatchToOSMesa();
 }

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OSMesa/GLDispatch.h"
 
-#include "vtk_glew.h"
-// glew takes away the macro that osmesa.h needs.
-#ifndef GLAPI
-#define GLAPI extern
-#endif
-#ifndef APIENTRY
-#define APIENTRY GLAPIENTRY
-#endif
-#include <GL/osmesa.h>
+#include "OSMesa/OSMesaLibrary.h"
 
 #include <dlfcn.h>
 
@@ -47,7 +39,7 @@ constexpr int TagThatIsNotGLX = 1;
 
 void* OSMesaFunction(const char* name, void*)
 {
-  return reinterpret_cast<void*>(OSMesaGetProcAddress(name));
+  return reinterpret_cast<void*>(LoadOSMesa().procAddress(name));
 }
 
 struct OSMesaVendor

@@ -215,10 +215,11 @@ TEST(SurfaceFile, TextSTL)
 // Whatever a damaged file says, it ends in a surface whose corners are points, or in an Error.
 TEST(SurfaceFile, DamagedFiles)
 {
-  const std::pair<ParseSurface, std::string> seeds[] = { { ParsePLY, plyText + corners + "3 0 1 2\n" },
-    { ParsePLY, BinaryPLY(false) }, { ParseOBJ, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" },
-    { ParseSTL, BinarySTL(3) },
-    { ParseSTL, "solid\nvertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endsolid" } };
+  const std::pair<ParseSurface, std::string> seeds[] = {
+    { ParsePLY, plyText + corners + "3 0 1 2\n" }, { ParsePLY, BinaryPLY(false) },
+    { ParseOBJ, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" }, { ParseSTL, BinarySTL(3) },
+    { ParseSTL, "solid\nvertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endsolid" }
+  };
   std::mt19937 random(1);
   int read = 0;
   for (int run = 0; run < 20000; ++run)
