@@ -9,6 +9,7 @@
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/PieceRequest.h"
 #include "Execution/SMPParallelFor.h"
+#include "Execution/ThreadSafeFunction.h"
 #include "Freespace/FreespaceUnion.h"
 #include "Mesh/FeatureGrid.h"
 #include "vtkFreespaceUnion.h"
@@ -48,6 +49,7 @@ class FunctionField : public freespace::ContourField
 public:
   explicit FunctionField(vtkImplicitFunction* function)
     : Function(function)
+    , IsSafe(freespace::IsThreadSafeFunction(function))
   {
   }
 
@@ -66,8 +68,11 @@ public:
     return label;
   }
 
+  bool IsThreadSafe() const override { return this->IsSafe; }
+
 private:
   vtkImplicitFunction* Function;
+  bool IsSafe;
 };
 
 Eigen::AlignedBox3d MakeBox(const double b[6])

@@ -9,8 +9,9 @@
  *
  * Negative is matter (VTK's inside), and so is zero. Outside the bounds all is free. For a
  * vtkFreespaceUnion without a transform, whole boxes decide most of the lattice; any other function is
- * evaluated at every lattice point, on one thread, because VTK does not guarantee that functions are
- * thread-safe.
+ * evaluated at every lattice point. That is done on all threads for vtkBox, vtkCone, vtkCylinder, vtkPlane,
+ * vtkQuadric, vtkSphere and a vtkImplicitBoolean of these, without transforms; on one thread otherwise,
+ * because VTK does not guarantee that functions are thread-safe.
  *
  * Output: a vtkPolyData of triangles, closed, 2-manifold, oriented with normals out of the matter, in the
  * unit of the function. Vertices keep the distance Clearance from lattice points, so that no triangle

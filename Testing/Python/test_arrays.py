@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Views go from numpy to VTK and back unchanged; images in arrays give the features that their files give."""
+import gc
 import json
 import os
 import tempfile
@@ -29,6 +30,44 @@ class TestArrays(unittest.TestCase):
             np.testing.assert_array_equal(back[name], view[name])
         self.assertEqual(back['size'], view['size'])
         self.assertEqual(back['triangles'].shape, (0, 3))
+
+    def test_rows_are_copied_unless_asked_otherwise(self):
+        view = random_view(np.random.default_rng(1), 50)
+        before = tuple(view['points'][7])
+        copied, shared = freespace.make_view(**view), freespace.make_view(**view, copy=False)
+        view['points'][7] = [1, 2, 3]
+        self.assertEqual(copied.GetPoint(7), before)
+        self.assertEqual(shared.GetPoint(7), (1, 2, 3))
+        self.assertTrue(np.shares_memory(vtk_to_numpy(shared.GetPointData().GetArray('ImagePoint')),
+                                         view['image_points']))
+
+    def test_shared_memory_outlives_its_array(self):
+        blocks = []
+        for seed in range(20):
+            blocks.append(freespace.make_view(**random_view(np.random.default_rng(seed), 1000), copy=False))
+            gc.collect()
+        for seed, block in enumerate(blocks):
+            wanted = random_view(np.random.default_rng(seed), 1000)['points']
+            np.testing.assert_array_equal(freespace.view_arrays(block)['points'], wanted)
+
+    def test_other_layouts_are_copied(self):
+        view = random_view(np.random.default_rng(1), 50)
+        points = view['points'].copy()
+        layouts = [np.asfortranarray(points), points.astype(np.float32), np.repeat(points, 2, axis=0)[::2]]
+        points.flags.writeable = False
+        for other in (*layouts, points):
+            back = freespace.view_arrays(freespace.make_view(**{**view, 'points': other}, copy=False))['points']
+            np.testing.assert_array_equal(back, other)
+            self.assertFalse(np.shares_memory(back, other))
+
+    def test_images_that_are_bottom_up_are_shared_if_asked(self):
+        pixels = np.arange(24, dtype=np.uint8).reshape(4, 6)
+        K, pose = random_view(np.random.default_rng(1), 1)['K'], np.eye(4)[:3]
+        for copy, shares in ((True, False), (False, True)):
+            image = freespace.make_image(pixels[::-1], K, pose, copy=copy)
+            inside = vtk_to_numpy(image.GetPointData().GetScalars())
+            np.testing.assert_array_equal(inside.ravel(), pixels.ravel())
+            self.assertEqual(np.shares_memory(inside, pixels), shares)
 
     def test_empty_view(self):
         view = random_view(np.random.default_rng(1), 0)

@@ -146,6 +146,7 @@ private:
   void FindStar(Vertex center);
   void Redistribute(Vertex center);
   static bool IsSettled(Face face, Face neighbor);
+  static double RiseOfFlip(Vertex apex, Vertex a, Vertex other, Vertex b);
   bool WantsFlip(Face face, int index, double leastCotangents) const;
   void Flip(Face face, int index);
   int FlipOnce(double leastCotangents, const CancellationFlag& stop);

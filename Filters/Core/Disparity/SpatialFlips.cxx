@@ -19,6 +19,10 @@ namespace
 constexpr int MaximumRounds = 4;
 constexpr int MaximumPasses = 8;
 
+// By how much of itself a flip may raise the disparity between the four points. Each diagonal would be a surface free
+// of edges, so that the space before either is free: a flip that raises more gives free space away.
+constexpr double MostRise = 1e-3;
+
 // The cotangent of the angle at `apex` in the triangle with a and b.
 double Cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
@@ -45,8 +49,25 @@ bool DisparitySurface<Triangulation>::IsSettled(Face face, Face neighbor)
   return face->info().lookedAt > changed || neighbor->info().lookedAt > changed;
 }
 
+// How much greater the disparity is where the diagonals of a strictly convex quadrangle cross in the image, as a share,
+// when that from a to b is replaced by that from apex to other.
+template <typename Triangulation>
+double DisparitySurface<Triangulation>::RiseOfFlip(Vertex apex, Vertex a, Vertex other, Vertex b)
+{
+  const auto across = other->point() - apex->point();
+  const auto along = b->point() - a->point();
+  const auto offset = a->point() - apex->point();
+  const auto cross = [](const auto& u, const auto& v) { return u.x() * v.y() - u.y() * v.x(); };
+  const double area = cross(across, along);
+  const auto disparity = [](Vertex from, Vertex to, double share)
+  { return from->info().disparity + share * (to->info().disparity - from->info().disparity); };
+  const double before = disparity(a, b, cross(offset, across) / area);
+  const double after = disparity(apex, other, cross(offset, along) / area);
+  return after / before - 1;
+}
+
 // Whether the edge opposite a vertex of a triangle is to be flipped: the quadrangle is strictly convex in the image,
-// and the other diagonal is the better one in space.
+// and the other diagonal is the better one in space and gives no free space away.
 template <typename Triangulation>
 bool DisparitySurface<Triangulation>::WantsFlip(Face face, int index, double leastCotangents) const
 {
@@ -71,7 +92,8 @@ bool DisparitySurface<Triangulation>::WantsFlip(Face face, int index, double lea
     Cotangent(point(a), point(apex), point(other)) + Cotangent(point(b), point(apex), point(other));
   return flipped > sum &&
     CGAL::orientation(apex->point(), a->point(), other->point()) == CGAL::LEFT_TURN &&
-    CGAL::orientation(other->point(), b->point(), apex->point()) == CGAL::LEFT_TURN;
+    CGAL::orientation(other->point(), b->point(), apex->point()) == CGAL::LEFT_TURN &&
+    RiseOfFlip(apex, a, other, b) <= MostRise;
 }
 
 // Flips the edge opposite a vertex of a triangle and distributes the candidates of the two triangles anew.
@@ -143,12 +165,15 @@ void DisparitySurface<Triangulation>::FlipEdges(
 }
 
 template bool DisparitySurface<PlainTriangulation>::IsSettled(Face, Face);
+template double DisparitySurface<PlainTriangulation>::RiseOfFlip(Vertex, Vertex, Vertex, Vertex);
 template bool DisparitySurface<PlainTriangulation>::WantsFlip(Face, int, double) const;
 template void DisparitySurface<PlainTriangulation>::Flip(Face, int);
 template int DisparitySurface<PlainTriangulation>::FlipOnce(double, const CancellationFlag&);
 template void DisparitySurface<PlainTriangulation>::FlipEdges(
   double, const std::vector<std::array<int, 2>>&, const CancellationFlag&);
 template bool DisparitySurface<ConstrainedTriangulation>::IsSettled(Face, Face);
+template double DisparitySurface<ConstrainedTriangulation>::RiseOfFlip(
+  Vertex, Vertex, Vertex, Vertex);
 template bool DisparitySurface<ConstrainedTriangulation>::WantsFlip(Face, int, double) const;
 template void DisparitySurface<ConstrainedTriangulation>::Flip(Face, int);
 template int DisparitySurface<ConstrainedTriangulation>::FlipOnce(double, const CancellationFlag&);

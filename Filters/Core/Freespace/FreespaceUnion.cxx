@@ -156,7 +156,7 @@ void FreespaceUnion::AddSilhouettes(const std::vector<ViewFeatures>& features)
     for (int i = 1; features[v].HasNone() && i < this->Votes.enough; ++i)
     {
       this->Views.push_back(this->Views[v]);
-      this->SurroundedView.push_back(static_cast<int>(v));
+      this->AddedView.push_back(static_cast<int>(v));
     }
   }
 }
@@ -171,7 +171,7 @@ void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
     for (int i = 0; i < this->Votes.enough; ++i)
     {
       this->Views.push_back(freespace);
-      this->SurroundedView.push_back(map.sourceView.front());
+      this->AddedView.push_back(map.sourceView.front());
     }
   }
 }

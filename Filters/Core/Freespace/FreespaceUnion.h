@@ -165,9 +165,9 @@ private:
   std::size_t NumberOfMaps;
   /// Of the maps, then those that count more than once: silhouettes and the surroundings of cameras.
   std::vector<std::shared_ptr<const ViewFreespace>> Views;
-  std::vector<int> AllViews;       ///< their indices
-  std::vector<double> Margins;     ///< of VoteOn, per view
-  std::vector<int> SurroundedView; ///< of those after the maps': the index of their view
+  std::vector<int> AllViews;   ///< their indices
+  std::vector<double> Margins; ///< of VoteOn, per view
+  std::vector<int> AddedView;  ///< of those after the maps': the index of their view
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;

@@ -86,7 +86,7 @@ SurfaceLabel FreespaceUnion::OfMaps(SurfaceLabel label) const
   const int maps = static_cast<int>(this->NumberOfMaps);
   if (label.view >= maps)
   {
-    label.view = this->SurroundedView[label.view - maps];
+    label.view = this->AddedView[label.view - maps];
     label.kind = SurfaceKind::Wall;
   }
   return label;

@@ -106,6 +106,9 @@ std::vector<CalibratedImage> ReadCameras(const std::string& path);
 /// The images of the scene's model. Throws as ReadSceneModel does.
 std::vector<CalibratedImage> ReadSceneImages(const Scene& scene);
 
+/// Those of them whose files are there. Throws as ReadSceneModel does.
+std::vector<CalibratedImage> ReadPresentImages(const Scene& scene);
+
 }
 
 #endif

@@ -123,10 +123,7 @@ Scene ReadSceneForReport(const ReportSettings& settings)
   const std::string& asked =
     settings.images.empty() ? settings.stages.DensifyFolder() : settings.images;
   scene.images = fs::absolute(asked.empty() ? scene.ImagesFolder() : asked).string();
-  const std::vector<CalibratedImage> images = ReadSceneImages(scene);
-  const bool areThere = std::any_of(images.begin(), images.end(),
-    [&scene](const CalibratedImage& image) { return IsThere(scene.ImagePath(image.file)); });
-  if (!areThere)
+  if (ReadPresentImages(scene).empty())
   {
     throw Error("A report shows the images of " + settings.scene + ", and none of them is in " +
       scene.images + ": --images names their folder.");
@@ -158,16 +155,16 @@ std::vector<std::string> ImagesOf(const Cluster& cluster)
 std::vector<CameraGroup> CameraGroups(const Scene& scene)
 {
   std::map<std::string, Camera> cameras;
-  std::vector<CameraGroup> groups;
-  CameraGroup all{ "photographs", {} };
   for (const CalibratedImage& image : ReadSceneImages(scene))
   {
     cameras[image.file] = image.camera;
-    if (IsThere(scene.ImagePath(image.file)))
-    {
-      all.cameras.push_back(image.camera);
-    }
   }
+  CameraGroup all{ "photographs", {} };
+  for (const CalibratedImage& image : ReadPresentImages(scene))
+  {
+    all.cameras.push_back(image.camera);
+  }
+  std::vector<CameraGroup> groups;
   for (const Cluster& cluster : scene.clusters)
   {
     CameraGroup group{ cluster.name, {} };

@@ -2,7 +2,6 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
-#include "Files/PathChecks.h"
 #include "Output/SurfaceFiles.h"
 #include "Scene/Scene.h"
 #include "Session/MachineMemory.h"
@@ -72,12 +71,9 @@ void CheckMemory(const TextureSettings& settings, double limit)
 {
   const Scene scene = ReadScene(settings.scene);
   double pixels = 0;
-  for (const CalibratedImage& image : ReadSceneImages(scene))
+  for (const CalibratedImage& image : ReadPresentImages(scene))
   {
-    if (IsThere(scene.ImagePath(image.file)))
-    {
-      pixels += static_cast<double>(image.camera.width) * image.camera.height;
-    }
+    pixels += static_cast<double>(image.camera.width) * image.camera.height;
   }
   const double needed = pixels * MemoryOfPixel / (1 << 20);
   if (limit > 0 && needed >= limit)

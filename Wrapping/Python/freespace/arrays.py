@@ -31,8 +31,11 @@ def views(blocks):
             for i in range(blocks.GetNumberOfBlocks())}
 
 
-def make_view(points, image_points, K, cam_from_world, size, image_file=''):
+def make_view(points, image_points, K, cam_from_world, size, image_file='', *, copy=True):
     """A view's block from arrays of the shapes that view_arrays returns.
+
+    With copy=False points and image_points that are contiguous rows of float64 are not copied: the block shows what is
+    later written into them.
 
     Raises ValueError for other shapes, a K that is not upper triangular with positive focal lengths, and a
     cam_from_world that is no rotation with a translation.
@@ -45,22 +48,23 @@ def make_view(points, image_points, K, cam_from_world, size, image_file=''):
     if len(points) != len(image_points):
         raise ValueError(f'{len(points)} points but {len(image_points)} image points')
     block = vtkPolyData()
-    block.SetPoints(_points(points))
+    block.SetPoints(shared_points(points.copy() if copy else points))
     n = len(points)
     vertices = vtkCellArray()
     vertices.SetData(_ids(np.arange(n + 1)), _ids(np.arange(n)))
     block.SetVerts(vertices)
-    block.GetPointData().AddArray(_named(image_points, 'ImagePoint'))
+    block.GetPointData().AddArray(_named(image_points.copy() if copy else image_points, 'ImagePoint'))
     _add_camera(block, K, cam_from_world, size, image_file)
     return block
 
 
-def make_image(pixels, K, cam_from_world):
+def make_image(pixels, K, cam_from_world, *, copy=True):
     """An image's block for vtkEdgeStereoReader, vtkTextureBaker or vtkViewDependentTextureMapper.
 
     pixels is (height, width) grey, (height, width, 3) red, green, blue or (height, width, 4) with alpha, the top row
-    first, of uint8, uint16, float32 or float64. make_views makes a data set of several. Raises ValueError as
-    make_view does.
+    first, of uint8, uint16, float32 or float64. make_views makes a data set of several. VTK has the bottom row first: with
+    copy=False the memory of such an image is not copied, so that pixels is a contiguous array turned by [::-1]. Raises
+    ValueError as make_view does.
     """
     pixels = np.asarray(pixels)
     if pixels.ndim not in (2, 3) or pixels.size == 0 or (pixels.ndim == 3 and pixels.shape[2] not in (1, 3, 4)):
@@ -73,7 +77,8 @@ def make_image(pixels, K, cam_from_world):
     height, width = pixels.shape[:2]
     image = vtkImageData()
     image.SetDimensions(width, height, 1)
-    image.GetPointData().SetScalars(_named(pixels[::-1].reshape(height * width, -1), 'Pixels'))
+    bottom_up = pixels[::-1].copy() if copy else pixels[::-1]
+    image.GetPointData().SetScalars(_named(bottom_up.reshape(height * width, -1), 'Pixels'))
     _add_camera(image, K, cam_from_world, (width, height), '')
     return image
 
@@ -141,17 +146,25 @@ def _triangles(poly_data):
     return vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
 
 
+def shared(array):
+    """A VTK array over the memory of a numpy array, which it keeps alive; over a copy where the memory is not
+    contiguous or may not be written to."""
+    array = np.ascontiguousarray(array)
+    return numpy_to_vtk(array if array.flags.writeable else array.copy(), deep=False)
+
+
+def shared_points(array):
+    """vtkPoints over the memory of rows of three doubles."""
+    points = vtkPoints()
+    points.SetData(shared(array))
+    return points
+
+
 def _named(array, name):
-    data = numpy_to_vtk(np.ascontiguousarray(array), deep=True)
+    data = shared(array)
     data.SetName(name)
     return data
 
 
 def _ids(array):
-    return numpy_to_vtk(np.ascontiguousarray(array, np.int64), deep=True)
-
-
-def _points(array):
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(array, deep=True))
-    return points
+    return shared(np.asarray(array, np.int64))

@@ -13,11 +13,11 @@ freespace.Error. Other Python threads go on meanwhile, Ctrl-C stops a batch, and
 A batch that an observer of the union's ProgressEvent stopped, by SetAbortExecute, is empty.
 """
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
 
 from . import _unlocked
-from .arrays import rows
+from .arrays import rows, shared, shared_points
 from .update import ErrorsRaised, check_valid
 
 MATTER, FREE, UNKNOWN = 0, 1, 2
@@ -54,7 +54,7 @@ def spheres_free(phi, centers, radii):
     centers = rows(centers, 3, 'centers')
     radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radii, np.float64), len(centers)))
     free = vtkUnsignedCharArray()
-    _ask(_unlocked.spheres_free, phi, _points(centers, 'centers'), numpy_to_vtk(radii, deep=True), free)
+    _ask(_unlocked.spheres_free, phi, _points(centers, 'centers'), shared(radii), free)
     return vtk_to_numpy(free).astype(bool)
 
 
@@ -65,6 +65,4 @@ def _ask(batch, phi, *arguments):
 
 
 def _points(array, name):
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(rows(array, 3, name), deep=True))
-    return points
+    return shared_points(rows(array, 3, name))

@@ -16,7 +16,7 @@ namespace
 {
 
 // Iterations of the smoothing of the guide normals, and the factor of its deviation.
-constexpr int GuideIterations = 2;
+constexpr int GuideIterations = 4;
 constexpr double GuideWidth = 2;
 
 // Like a Gaussian of the deviation, but it ends at 2.4 deviations.
