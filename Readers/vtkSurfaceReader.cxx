@@ -31,16 +31,13 @@ vtkStandardNewMacro(vtkSurfaceReader);
 namespace
 {
 
-// What the inner reader finds wrong is told below, in a sentence that names the file.
-void IgnoreError(vtkObject*, unsigned long, void*, void*) {}
-
 vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
 {
   freespace::CheckXMLFile(fileName);
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(fileName.c_str());
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback(IgnoreError);
+  vtkNew<vtkCallbackCommand>
+    silence; // what is wrong is told below, in a sentence that names the file
   reader->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silence);
   reader->SetReaderErrorObserver(silence);

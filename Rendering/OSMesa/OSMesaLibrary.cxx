@@ -18,7 +18,7 @@ bool FindFunction(void* library, const char* name, Function& function)
 
 OSMesaLibrary Load()
 {
-  void* library = dlopen(FREESPACE_OSMESA_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
+  void* library = dlopen(FREESPACE_OSMESA_SONAME, RTLD_LAZY | RTLD_LOCAL);
   OSMesaLibrary loaded;
   const bool isWhole = library &&
     FindFunction(library, "OSMesaCreateContextAttribs", loaded.createContext) &&

@@ -35,7 +35,13 @@ class TestArrays(unittest.TestCase):
         view = random_view(np.random.default_rng(1), 50)
         before = tuple(view['points'][7])
         copied, shared = freespace.make_view(**view), freespace.make_view(**view, copy=False)
+        K = view['K'].copy()
         view['points'][7] = [1, 2, 3]
+        view['K'][0, 0] = 1
+        view['cam_from_world'][0, 3] = 1
+        for block in (copied, shared):
+            np.testing.assert_array_equal(freespace.view_arrays(block)['K'], K, 'a camera is always copied')
+            self.assertEqual(freespace.view_arrays(block)['cam_from_world'][0, 3], .1)
         self.assertEqual(copied.GetPoint(7), before)
         self.assertEqual(shared.GetPoint(7), (1, 2, 3))
         self.assertTrue(np.shares_memory(vtk_to_numpy(shared.GetPointData().GetArray('ImagePoint')),

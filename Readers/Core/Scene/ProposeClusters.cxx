@@ -31,7 +31,7 @@ struct Pair
 {
   ProposedTriplet triplet;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero(); // from the first to the second, of length 1
-  double angle = 0;                                    // mean, degrees
+  double angle = 0;                                    // mean, radians
 };
 
 Pair MakePair(const Neighbor& a, const Neighbor& b)

@@ -18,7 +18,7 @@ constexpr double SameWay = 30 * degree;
 // How well the references chosen so far cover an image.
 struct Covered
 {
-  double nearest = std::numeric_limits<double>::infinity(); // angle to the nearest one, degrees
+  double nearest = std::numeric_limits<double>::infinity(); // angle to the nearest one, radians
   int references = 0;                                       // within the coverage angle
 };
 

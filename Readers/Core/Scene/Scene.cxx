@@ -393,9 +393,8 @@ std::vector<CalibratedImage> ReadSceneImages(const Scene& scene)
   return CalibratedImages(ReadSceneModel(scene));
 }
 
-std::vector<CalibratedImage> ReadPresentImages(const Scene& scene)
+std::vector<CalibratedImage> PresentImages(const Scene& scene, std::vector<CalibratedImage> images)
 {
-  std::vector<CalibratedImage> images = ReadSceneImages(scene);
   images.erase(
     std::remove_if(images.begin(), images.end(),
       [&scene](const CalibratedImage& image) { return !IsThere(scene.ImagePath(image.file)); }),

@@ -106,8 +106,8 @@ std::vector<CalibratedImage> ReadCameras(const std::string& path);
 /// The images of the scene's model. Throws as ReadSceneModel does.
 std::vector<CalibratedImage> ReadSceneImages(const Scene& scene);
 
-/// Those of them whose files are there. Throws as ReadSceneModel does.
-std::vector<CalibratedImage> ReadPresentImages(const Scene& scene);
+/// Those of a scene's images whose files are there.
+std::vector<CalibratedImage> PresentImages(const Scene& scene, std::vector<CalibratedImage> images);
 
 }
 

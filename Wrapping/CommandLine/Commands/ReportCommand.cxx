@@ -123,7 +123,7 @@ Scene ReadSceneForReport(const ReportSettings& settings)
   const std::string& asked =
     settings.images.empty() ? settings.stages.DensifyFolder() : settings.images;
   scene.images = fs::absolute(asked.empty() ? scene.ImagesFolder() : asked).string();
-  if (ReadPresentImages(scene).empty())
+  if (PresentImages(scene, ReadSceneImages(scene)).empty())
   {
     throw Error("A report shows the images of " + settings.scene + ", and none of them is in " +
       scene.images + ": --images names their folder.");
@@ -154,13 +154,14 @@ std::vector<std::string> ImagesOf(const Cluster& cluster)
 // The cameras by cluster; where the scene names none, those of all images in one group.
 std::vector<CameraGroup> CameraGroups(const Scene& scene)
 {
+  const std::vector<CalibratedImage> images = ReadSceneImages(scene);
   std::map<std::string, Camera> cameras;
-  for (const CalibratedImage& image : ReadSceneImages(scene))
+  for (const CalibratedImage& image : images)
   {
     cameras[image.file] = image.camera;
   }
   CameraGroup all{ "photographs", {} };
-  for (const CalibratedImage& image : ReadPresentImages(scene))
+  for (const CalibratedImage& image : PresentImages(scene, images))
   {
     all.cameras.push_back(image.camera);
   }

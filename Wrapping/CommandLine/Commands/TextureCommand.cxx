@@ -71,7 +71,7 @@ void CheckMemory(const TextureSettings& settings, double limit)
 {
   const Scene scene = ReadScene(settings.scene);
   double pixels = 0;
-  for (const CalibratedImage& image : ReadPresentImages(scene))
+  for (const CalibratedImage& image : PresentImages(scene, ReadSceneImages(scene)))
   {
     pixels += static_cast<double>(image.camera.width) * image.camera.height;
   }

@@ -48,12 +48,12 @@ def make_view(points, image_points, K, cam_from_world, size, image_file='', *, c
     if len(points) != len(image_points):
         raise ValueError(f'{len(points)} points but {len(image_points)} image points')
     block = vtkPolyData()
-    block.SetPoints(shared_points(points.copy() if copy else points))
+    block.SetPoints(vtk_points(points, copy))
     n = len(points)
     vertices = vtkCellArray()
     vertices.SetData(_ids(np.arange(n + 1)), _ids(np.arange(n)))
     block.SetVerts(vertices)
-    block.GetPointData().AddArray(_named(image_points.copy() if copy else image_points, 'ImagePoint'))
+    block.GetPointData().AddArray(_named(image_points, 'ImagePoint', copy))
     _add_camera(block, K, cam_from_world, size, image_file)
     return block
 
@@ -77,8 +77,7 @@ def make_image(pixels, K, cam_from_world, *, copy=True):
     height, width = pixels.shape[:2]
     image = vtkImageData()
     image.SetDimensions(width, height, 1)
-    bottom_up = pixels[::-1].copy() if copy else pixels[::-1]
-    image.GetPointData().SetScalars(_named(bottom_up.reshape(height * width, -1), 'Pixels'))
+    image.GetPointData().SetScalars(_named(pixels[::-1].reshape(height * width, -1), 'Pixels', copy))
     _add_camera(image, K, cam_from_world, (width, height), '')
     return image
 
@@ -146,25 +145,25 @@ def _triangles(poly_data):
     return vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, 3)
 
 
-def shared(array):
-    """A VTK array over the memory of a numpy array, which it keeps alive; over a copy where the memory is not
-    contiguous or may not be written to."""
+def vtk_array(array, copy=True):
+    """A VTK array of a numpy array. Without a copy it shows the array's own memory, which it keeps alive; memory that is
+    not contiguous or may not be written to is always copied."""
     array = np.ascontiguousarray(array)
-    return numpy_to_vtk(array if array.flags.writeable else array.copy(), deep=False)
+    return numpy_to_vtk(array, deep=copy or not array.flags.writeable)
 
 
-def shared_points(array):
-    """vtkPoints over the memory of rows of three doubles."""
+def vtk_points(array, copy=True):
+    """vtkPoints of rows of three doubles, as vtk_array has them."""
     points = vtkPoints()
-    points.SetData(shared(array))
+    points.SetData(vtk_array(array, copy))
     return points
 
 
-def _named(array, name):
-    data = shared(array)
+def _named(array, name, copy=True):
+    data = vtk_array(array, copy)
     data.SetName(name)
     return data
 
 
 def _ids(array):
-    return shared(np.asarray(array, np.int64))
+    return vtk_array(np.asarray(array, np.int64))

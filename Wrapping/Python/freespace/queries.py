@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
 
 from . import _unlocked
-from .arrays import rows, shared, shared_points
+from .arrays import rows, vtk_array, vtk_points
 from .update import ErrorsRaised, check_valid
 
 MATTER, FREE, UNKNOWN = 0, 1, 2
@@ -54,7 +54,7 @@ def spheres_free(phi, centers, radii):
     centers = rows(centers, 3, 'centers')
     radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radii, np.float64), len(centers)))
     free = vtkUnsignedCharArray()
-    _ask(_unlocked.spheres_free, phi, _points(centers, 'centers'), shared(radii), free)
+    _ask(_unlocked.spheres_free, phi, _points(centers, 'centers'), vtk_array(radii, copy=False), free)
     return vtk_to_numpy(free).astype(bool)
 
 
@@ -65,4 +65,4 @@ def _ask(batch, phi, *arguments):
 
 
 def _points(array, name):
-    return shared_points(rows(array, 3, name))
+    return vtk_points(rows(array, 3, name), copy=False)
