@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report/Page/CameraDrawing.h"
 
+#include "Support/Core/CountParts.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -33,16 +35,6 @@ std::vector<Eigen::Vector2d> Coordinates(const std::string& svg)
     points.emplace_back(std::stod((*at)[1]), std::stod((*at)[2]));
   }
   return points;
-}
-
-std::size_t CountParts(const std::string& text, const std::string& part)
-{
-  std::size_t count = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-  {
-    ++count;
-  }
-  return count;
 }
 
 }

@@ -5,6 +5,7 @@
 #include "Report/Page/ReportPage.h"
 #include "Report/Page/ShellCommand.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/CountParts.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -61,16 +62,6 @@ Report SmallReport(const std::string& name)
   report.commands = { { name, name } };
   report.footer = name;
   return report;
-}
-
-std::size_t Count(const std::string& text, const std::string& part)
-{
-  std::size_t count = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-  {
-    ++count;
-  }
-  return count;
 }
 
 }
@@ -184,10 +175,10 @@ TEST(ReportPage, EscapesEveryName)
   const std::string page = WriteReportPage(SmallReport(evil));
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("\" onload"), std::string::npos);
-  EXPECT_EQ(Count(page, "<"), Count(harmless, "<"));
+  EXPECT_EQ(CountParts(page, "<"), CountParts(harmless, "<"));
   const std::string marked = WriteReportPage(SmallReport("@@"));
-  EXPECT_EQ(Count(page, EscapeHtml(evil)), Count(marked, "@@"));
-  EXPECT_GT(Count(marked, "@@"), 20u);
+  EXPECT_EQ(CountParts(page, EscapeHtml(evil)), CountParts(marked, "@@"));
+  EXPECT_GT(CountParts(marked, "@@"), 20u);
 }
 
 TEST(ReportPage, KeepsTheModelWithinItsElement)

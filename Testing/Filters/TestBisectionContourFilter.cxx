@@ -9,6 +9,7 @@
 #include "Support/ProgressWatch.h"
 #include "Support/RandomMapBlocks.h"
 #include "vtkFreespaceUnion.h"
+#include "Support/Filters/WatchedSphere.h"
 
 #include <vtkCellData.h>
 #include <vtkCommand.h>
@@ -156,19 +157,9 @@ TEST(vtkBisectionContourFilter, KeepsWhatWasSeen)
 
 TEST(vtkBisectionContourFilter, StopsAtOnce)
 {
-  class CountingSphere : public vtkSphere
-  {
-  public:
-    static CountingSphere* New() { return new CountingSphere; }
-    using vtkSphere::EvaluateFunction;
-    double EvaluateFunction(double x[3]) override
-    {
-      ++this->Calls;
-      return this->vtkSphere::EvaluateFunction(x);
-    }
-    int Calls = 0;
-  };
-  vtkNew<CountingSphere> sphere;
+  int calls = 0;
+  vtkNew<WatchedSphere> sphere;
+  sphere->OnEvaluation = [&calls] { ++calls; };
   vtkNew<vtkBisectionContourFilter> contour;
   SetPlainContour(contour.Get());
   contour->SetImplicitFunction(sphere);
@@ -176,19 +167,19 @@ TEST(vtkBisectionContourFilter, StopsAtOnce)
   contour->SetCells(100);
   contour->Update();
   ExpectSphere(contour->GetOutput());
-  const int all = sphere->Calls;
+  const int all = calls;
 
   for (const double when : { 0.01, 0.4 })
   {
     ProgressWatch progress(contour, when);
     int before = 0;
-    progress.AtStop = [&] { before = sphere->Calls; };
-    sphere->Calls = 0;
+    progress.AtStop = [&] { before = calls; };
+    calls = 0;
     contour->Modified();
     contour->Update();
     EXPECT_GE(progress.Last, when);
     EXPECT_LT(before, all);
-    EXPECT_EQ(sphere->Calls, before);
+    EXPECT_EQ(calls, before);
     EXPECT_EQ(progress.After, 0);
     EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_EQ(contour->GetOutput()->GetNumberOfPoints(), 0);

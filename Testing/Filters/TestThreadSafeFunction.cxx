@@ -2,12 +2,14 @@
 #include "Execution/ThreadSafeFunction.h"
 #include "Support/PlainSettings.h"
 #include "vtkBisectionContourFilter.h"
+#include "Support/Filters/WatchedSphere.h"
 
 #include <vtkBox.h>
 #include <vtkImplicitBoolean.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkSphere.h>
 #include <vtkTransform.h>
 
@@ -20,20 +22,6 @@ using freespace::IsThreadSafeFunction;
 
 namespace
 {
-
-// A sphere that notes who evaluates it, as a function with a state would.
-class NotingSphere : public vtkSphere
-{
-public:
-  static NotingSphere* New() { return new NotingSphere; }
-  using vtkSphere::EvaluateFunction;
-  double EvaluateFunction(double x[3]) override
-  {
-    this->Threads.insert(std::this_thread::get_id());
-    return this->vtkSphere::EvaluateFunction(x);
-  }
-  std::set<std::thread::id> Threads;
-};
 
 vtkSmartPointer<vtkPolyData> Contour(vtkImplicitFunction* function)
 {
@@ -52,10 +40,10 @@ TEST(ThreadSafeFunction, IsOneOfVTKsOwn)
 {
   vtkNew<vtkSphere> sphere;
   vtkNew<vtkBox> box;
-  vtkNew<NotingSphere> noting;
+  vtkNew<WatchedSphere> watched;
   EXPECT_TRUE(IsThreadSafeFunction(sphere));
   EXPECT_TRUE(IsThreadSafeFunction(box));
-  EXPECT_FALSE(IsThreadSafeFunction(noting));
+  EXPECT_FALSE(IsThreadSafeFunction(watched));
 }
 
 TEST(ThreadSafeFunction, HasNoTransform)
@@ -70,21 +58,23 @@ TEST(ThreadSafeFunction, CombinesThreadSafeOnes)
 {
   vtkNew<vtkImplicitBoolean> inner, outer;
   vtkNew<vtkSphere> sphere;
-  vtkNew<NotingSphere> noting;
+  vtkNew<WatchedSphere> watched;
   inner->AddFunction(sphere);
   outer->AddFunction(inner);
   EXPECT_TRUE(IsThreadSafeFunction(outer));
-  inner->AddFunction(noting);
+  inner->AddFunction(watched);
   EXPECT_FALSE(IsThreadSafeFunction(outer));
 }
 
 TEST(ThreadSafeFunction, OthersAreEvaluatedOnOneThreadWithTheSameResult)
 {
   vtkNew<vtkSphere> sphere;
-  vtkNew<NotingSphere> noting;
+  vtkNew<WatchedSphere> watched;
+  std::set<std::thread::id> threads;
+  watched->OnEvaluation = [&threads] { threads.insert(std::this_thread::get_id()); };
   const auto onAllThreads = Contour(sphere);
-  const auto onOne = Contour(noting);
-  EXPECT_EQ(noting->Threads, std::set{ std::this_thread::get_id() });
+  const auto onOne = Contour(watched);
+  EXPECT_EQ(threads, std::set{ std::this_thread::get_id() });
   ASSERT_GT(onOne->GetNumberOfPoints(), 1000);
   ASSERT_EQ(onAllThreads->GetNumberOfPoints(), onOne->GetNumberOfPoints());
   ASSERT_EQ(onAllThreads->GetNumberOfCells(), onOne->GetNumberOfCells());

@@ -5,6 +5,7 @@
 #include "Support/ErrorObserver.h"
 #include "Support/PictureComparison.h"
 #include "vtkSurfaceComparison.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCubeSource.h>
@@ -60,12 +61,6 @@ std::array<int, 3> Colour(vtkImageData* picture, int column, int row) // row 0 a
 bool IsWhite(vtkImageData* picture, int column, int row)
 {
   return Colour(picture, column, row) == std::array<int, 3>{ 255, 255, 255 };
-}
-
-std::string TemporaryPictures()
-{
-  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
-  return mkdtemp(pattern.data());
 }
 
 }
@@ -294,7 +289,8 @@ TEST(SurfacePicture, SurfaceMayChange)
 
 TEST(SurfacePicture, WritesThePNGThatItShows)
 {
-  const std::string folder = TemporaryPictures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   const std::string file = folder + "/picture.png";
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(BallOnSlab());
@@ -307,7 +303,6 @@ TEST(SurfacePicture, WritesThePNGThatItShows)
   EXPECT_EQ(ComparePictures(reader->GetOutput(), picture->GetOutput()).mean, 0.0);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1)
     << "something half-written was left behind";
-  fs::remove_all(folder);
 }
 
 TEST(SurfacePicture, UnwritableFolderIsAnError)
@@ -323,14 +318,14 @@ TEST(SurfacePicture, UnwritableFolderIsAnError)
 TEST(SurfacePicture, EmptySurfaceIsAnError)
 {
   freespace::ExpectedErrors errors;
-  const std::string folder = TemporaryPictures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   vtkNew<vtkPolyData> empty;
   vtkNew<vtkSurfacePicture> picture;
   picture->SetInputData(empty);
   EXPECT_EQ(picture->WritePNG(folder + "/picture.png"), 0);
   EXPECT_TRUE(errors.Has("There is no surface to make a picture of."));
   EXPECT_TRUE(fs::is_empty(folder));
-  fs::remove_all(folder);
 }
 
 TEST(SurfacePicture, RefusesACameraThatIsNone)

@@ -7,6 +7,7 @@
 #include "Texture/SurfaceColor.h"
 #include "Texture/TextureAtlas.h"
 #include "vtkTexturedSurfaceWriter.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkFloatArray.h>
 #include <vtkGLTFReader.h>
@@ -66,12 +67,6 @@ struct BakedScene
     return { double(texel[0]), double(texel[1]), double(texel[2]) };
   }
 };
-
-std::string TemporaryTextures()
-{
-  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
-  return mkdtemp(pattern.data());
-}
 
 int Write(const BakedScene& baked, const std::string& fileName)
 {
@@ -211,7 +206,8 @@ TEST(SurfaceColor, ExposuresAreLevelled)
 TEST(TexturedSurfaceWriter, GLBLoadsInAnIndependentReader)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryTextures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(baked, folder + "/model.glb"), 1);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   vtkNew<vtkGLTFReader> reader;
@@ -242,13 +238,13 @@ TEST(TexturedSurfaceWriter, GLBLoadsInAnIndependentReader)
   ASSERT_NE(texture.Image, nullptr);
   EXPECT_EQ(texture.Image->GetDimensions()[0], baked.baker->GetTexture()->GetDimensions()[0]);
   EXPECT_EQ(texture.Image->GetDimensions()[1], baked.baker->GetTexture()->GetDimensions()[1]);
-  fs::remove_all(folder);
 }
 
 TEST(TexturedSurfaceWriter, OBJHasItsMaterialAndTextureBeside)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryTextures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(baked, folder + "/model.obj"), 1);
   EXPECT_TRUE(fs::exists(folder + "/model.mtl"));
   ASSERT_TRUE(fs::exists(folder + "/model.png"));
@@ -265,13 +261,13 @@ TEST(TexturedSurfaceWriter, OBJHasItsMaterialAndTextureBeside)
   png->SetFileName((folder + "/model.png").c_str());
   png->Update();
   EXPECT_EQ(png->GetOutput()->GetDimensions()[0], baked.baker->GetTexture()->GetDimensions()[0]);
-  fs::remove_all(folder);
 }
 
 TEST(TexturedSurfaceWriter, PLYHasTheColoursOfPoints)
 {
   const BakedScene baked;
-  const std::string folder = TemporaryTextures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(baked, folder + "/model.ply"), 1);
   vtkNew<vtkPLYReader> reader;
   reader->SetFileName((folder + "/model.ply").c_str());
@@ -286,7 +282,6 @@ TEST(TexturedSurfaceWriter, PLYHasTheColoursOfPoints)
   {
     EXPECT_EQ(colors->GetValue(i), written->GetValue(i));
   }
-  fs::remove_all(folder);
 }
 
 TEST(TexturedSurfaceWriter, FaultsAreErrors)
@@ -295,7 +290,8 @@ TEST(TexturedSurfaceWriter, FaultsAreErrors)
   const BakedScene baked(1);
   EXPECT_EQ(Write(baked, "/nowhere/at/all/model.glb"), 0);
   EXPECT_TRUE(errors.Has("/nowhere/at/all"));
-  const std::string folder = TemporaryTextures();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   EXPECT_EQ(Write(baked, folder + "/model.xyz"), 0);
   EXPECT_TRUE(errors.Has("model.xyz"));
   vtkNew<vtkTexturedSurfaceWriter> writer;
@@ -304,5 +300,4 @@ TEST(TexturedSurfaceWriter, FaultsAreErrors)
   EXPECT_EQ(writer->Write(), 0) << "no texture";
   EXPECT_TRUE(errors.Has("no texture or no coordinates"));
   EXPECT_TRUE(fs::is_empty(folder));
-  fs::remove_all(folder);
 }

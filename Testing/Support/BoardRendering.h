@@ -8,10 +8,14 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <string>
 #include <vector>
 
 namespace freespace
 {
+
+inline const std::string charucoBoard = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
+inline const std::string chessboardBoard = "chessboard:7x6:0.03";
 
 /// Pictures of a board from known cameras: every pixel averages 4 x 4 rays.
 class BoardRendering

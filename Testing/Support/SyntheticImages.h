@@ -117,7 +117,7 @@ inline cv::Mat Render(
 
 /// A camera at (x, 0, 0) that looks along +z. The axes of all of them are parallel, so that a point at
 /// depth z moves by focalLength * baseline / z pixels along its row from one to another.
-inline Camera ParallelCamera(double x, int width, int height, double focalLength)
+inline Camera ParallelCamera(double x, int width = 640, int height = 480, double focalLength = 500)
 {
   Camera camera;
   camera.K << focalLength, 0, width / 2.0, 0, focalLength, height / 2.0, 0, 0, 1;

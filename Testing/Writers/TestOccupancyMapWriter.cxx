@@ -6,6 +6,7 @@
 #include "Data/ViewBlocks.h"
 #include "Texture/DisparityImage.h"
 #include "vtkFreespaceUnion.h"
+#include "Support/TemporaryFolder.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkErrorCode.h>
@@ -66,12 +67,6 @@ int Write(const std::string& fileName, vtkMultiBlockDataSet* maps, double resolu
   return writer->Write();
 }
 
-std::string TemporaryMaps()
-{
-  std::string pattern = (fs::temp_directory_path() / "freespace-test-XXXXXX").string();
-  return mkdtemp(pattern.data());
-}
-
 void ExpectAgreement(const octomap::OcTree& tree)
 {
   vtkNew<vtkFreespaceUnion> phi;
@@ -123,25 +118,25 @@ void ExpectAgreement(const octomap::OcTree& tree)
 
 TEST(OccupancyMapWriter, BinaryTreeAgreesWithPhi)
 {
-  const std::string folder = TemporaryMaps();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(folder + "/map.bt", Maps()), 1);
   octomap::OcTree tree(folder + "/map.bt");
   EXPECT_NEAR(tree.getResolution(), 0.02, 1e-9);
   ExpectAgreement(tree);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
-  fs::remove_all(folder);
 }
 
 TEST(OccupancyMapWriter, FullTreeAgreesWithPhi)
 {
-  const std::string folder = TemporaryMaps();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(folder + "/map.ot", Maps()), 1);
   const std::unique_ptr<octomap::AbstractOcTree> read(
     octomap::AbstractOcTree::read(folder + "/map.ot"));
   const auto* tree = dynamic_cast<octomap::OcTree*>(read.get());
   ASSERT_NE(tree, nullptr);
   ExpectAgreement(*tree);
-  fs::remove_all(folder);
 }
 
 namespace
@@ -171,7 +166,8 @@ struct Watcher
 
 TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
 {
-  const std::string folder = TemporaryMaps();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   for (const char* ending : { ".bt", ".ot" })
   {
     std::size_t whole = 0;
@@ -205,7 +201,6 @@ TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
       EXPECT_EQ(watcher.after, stopAt > 0 ? 0 : 1); // the first event is the pipeline's own
     }
   }
-  fs::remove_all(folder);
 }
 
 // Of the package octomap-tools.
@@ -216,7 +211,8 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
   {
     GTEST_SKIP() << "octomap-tools are not installed";
   }
-  const std::string folder = TemporaryMaps();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   ASSERT_EQ(Write(folder + "/map.bt", Maps()), 1);
   const std::string command = tool + " " + folder + "/map.bt " + folder + "/again.ot > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
@@ -225,13 +221,13 @@ TEST(OccupancyMapWriter, ToolsOfOctoMapReadIt)
   const auto* tree = dynamic_cast<octomap::OcTree*>(read.get());
   ASSERT_NE(tree, nullptr);
   ExpectAgreement(*tree);
-  fs::remove_all(folder);
 }
 
 TEST(OccupancyMapWriter, FaultsAreErrors)
 {
   ExpectedErrors errors;
-  const std::string folder = TemporaryMaps();
+  const freespace::TemporaryFolder temporary;
+  const std::string folder = temporary.Path();
   EXPECT_EQ(Write("/nowhere/at/all/map.bt", Maps()), 0);
   EXPECT_TRUE(errors.Has("/nowhere/at/all"));
   EXPECT_EQ(Write(folder + "/map.xyz", Maps()), 0);
@@ -241,5 +237,4 @@ TEST(OccupancyMapWriter, FaultsAreErrors)
   EXPECT_EQ(Write(folder + "/map.bt", Maps(), 1e-6), 0);
   EXPECT_TRUE(errors.Has("A resolution of 0.000001"));
   EXPECT_TRUE(fs::is_empty(folder));
-  fs::remove_all(folder);
 }

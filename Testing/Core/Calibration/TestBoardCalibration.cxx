@@ -6,6 +6,7 @@
 #include "Common/Error.h"
 #include "Support/BoardRendering.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +20,6 @@ using namespace freespace;
 
 namespace
 {
-
-const std::string charuco = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
-const std::string chessboard = "chessboard:7x6:0.03";
 
 std::vector<CalibratedImage> Cameras(const std::vector<double>& distortion)
 {
@@ -84,24 +82,6 @@ void ExpectCameras(const BoardCalibration& calibration, const std::vector<Calibr
   }
 }
 
-void ExpectCalibrationError(
-  const std::function<void()>& action, const std::vector<std::string>& words)
-{
-  try
-  {
-    action();
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
-}
-
 }
 
 TEST(BoardFromText, Charuco)
@@ -139,7 +119,8 @@ TEST(BoardCalibration, CharucoThatIsPartlyHidden)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
-  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, true), charuco);
+  const BoardCalibration calibration =
+    Calibrate(RenderAll(folder, charucoBoard, truth, true), charucoBoard);
   ExpectCameras(calibration, truth);
   EXPECT_TRUE(calibration.pictures[0].image.distortion.empty()) << "there is none";
   EXPECT_LT(calibration.error, 0.08);
@@ -149,7 +130,8 @@ TEST(BoardCalibration, DistortionIsFound)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({ -0.2, 0.05, 0, 0 });
-  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, false), charuco);
+  const BoardCalibration calibration =
+    Calibrate(RenderAll(folder, charucoBoard, truth, false), charucoBoard);
   ExpectCameras(calibration, truth);
   const std::vector<double>& distortion = calibration.pictures[0].image.distortion;
   ASSERT_GE(distortion.size(), 4u);
@@ -167,7 +149,7 @@ TEST(BoardCalibration, Chessboard)
     camera.camera.t.z() *= 1.4; // all of it must be seen
   }
   const BoardCalibration calibration =
-    Calibrate(RenderAll(folder, chessboard, truth, false), chessboard);
+    Calibrate(RenderAll(folder, chessboardBoard, truth, false), chessboardBoard);
   ASSERT_EQ(calibration.pictures.size(), truth.size());
   for (const BoardPicture& picture : calibration.pictures)
   {
@@ -181,7 +163,7 @@ TEST(BoardCalibration, ChessboardThatLooksTheSameTurned)
 {
   for (const char* board : { "chessboard:8x6:0.03", "chessboard:7x7:0.03", "chessboard:7x5:0.03" })
   {
-    ExpectCalibrationError([&]() { Calibrate({ "none.png" }, board); }, { "turned", "even" });
+    ExpectError([&]() { Calibrate({ "none.png" }, board); }, { "turned", "even" });
   }
 }
 
@@ -202,15 +184,16 @@ TEST(BoardCalibration, TwoCamerasOfOneSize)
 {
   TemporaryFolder folder;
   std::vector<CalibratedImage> truth = Cameras({});
-  std::vector<std::string> files = RenderAll(folder, charuco, truth, false, false, "a/");
+  std::vector<std::string> files = RenderAll(folder, charucoBoard, truth, false, false, "a/");
   for (CalibratedImage& camera : truth)
   {
     camera.camera.K(0, 0) = camera.camera.K(1, 1) = 616;
   }
-  const std::vector<std::string> others = RenderAll(folder, charuco, truth, false, false, "b/");
+  const std::vector<std::string> others =
+    RenderAll(folder, charucoBoard, truth, false, false, "b/");
   files.insert(files.end(), others.begin(), others.end());
-  const BoardCalibration calibration = Calibrate(files, charuco);
-  const SparseModel model = calibration.Model(BoardFromText(charuco), folder.Path());
+  const BoardCalibration calibration = Calibrate(files, charucoBoard);
+  const SparseModel model = calibration.Model(BoardFromText(charucoBoard), folder.Path());
   ASSERT_EQ(model.cameras.size(), 2u);
   EXPECT_NEAR(model.cameras[0].parameters[0], 560, 1.2);
   EXPECT_NEAR(model.cameras[1].parameters[0], 616, 1.2);
@@ -224,21 +207,23 @@ TEST(BoardCalibration, OneCameraInTwoFolders)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
-  std::vector<std::string> files = RenderAll(folder, charuco, truth, false, false, "a/");
-  const std::vector<std::string> others = RenderAll(folder, charuco, truth, false, false, "b/");
+  std::vector<std::string> files = RenderAll(folder, charucoBoard, truth, false, false, "a/");
+  const std::vector<std::string> others =
+    RenderAll(folder, charucoBoard, truth, false, false, "b/");
   files.insert(files.end(), others.begin(), others.end());
   EXPECT_EQ(
-    Calibrate(files, charuco).Model(BoardFromText(charuco), folder.Path()).cameras.size(), 1u);
+    Calibrate(files, charucoBoard).Model(BoardFromText(charucoBoard), folder.Path()).cameras.size(),
+    1u);
 }
 
 TEST(BoardCalibration, PictureWithoutABoardIsLeftOut)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
-  std::vector<std::string> files = RenderAll(folder, charuco, truth, false);
+  std::vector<std::string> files = RenderAll(folder, charucoBoard, truth, false);
   files.insert(files.begin() + 1, folder.Path("empty.png"));
   cv::imwrite(files[1], cv::Mat(360, 480, CV_8U, cv::Scalar(128)));
-  BoardCalibration calibration = Calibrate(files, charuco);
+  BoardCalibration calibration = Calibrate(files, charucoBoard);
   EXPECT_FALSE(calibration.pictures[1].used);
   EXPECT_FALSE(calibration.pictures[1].reason.empty());
   calibration.pictures.erase(calibration.pictures.begin() + 1);
@@ -249,8 +234,9 @@ TEST(BoardCalibration, ModelHoldsCamerasAndCorners)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
-  const BoardCalibration calibration = Calibrate(RenderAll(folder, charuco, truth, false), charuco);
-  const SparseModel model = calibration.Model(BoardFromText(charuco), folder.Path());
+  const BoardCalibration calibration =
+    Calibrate(RenderAll(folder, charucoBoard, truth, false), charucoBoard);
+  const SparseModel model = calibration.Model(BoardFromText(charucoBoard), folder.Path());
   ASSERT_EQ(model.cameras.size(), 1u);
   EXPECT_EQ(model.cameras[0].model, LensModel::SimplePinhole);
   ASSERT_EQ(model.images.size(), truth.size());
@@ -272,8 +258,8 @@ TEST(BoardCalibration, ModelHoldsCamerasAndCorners)
 TEST(BoardCalibration, AnnotatedPictures)
 {
   TemporaryFolder folder;
-  const std::vector<std::string> files = RenderAll(folder, charuco, Cameras({}), false);
-  const BoardCalibration calibration = Calibrate(files, charuco);
+  const std::vector<std::string> files = RenderAll(folder, charucoBoard, Cameras({}), false);
+  const BoardCalibration calibration = Calibrate(files, charucoBoard);
   WriteBoardPictures(calibration, folder.Path("boards"));
   const cv::Mat drawn = cv::imread(folder.Path("boards/picture0.jpg"));
   ASSERT_EQ(drawn.cols, 480);
@@ -303,9 +289,9 @@ TEST(BoardCalibration, TooFewPictures)
   TemporaryFolder folder;
   std::vector<CalibratedImage> two = Cameras({});
   two.resize(2);
-  const std::vector<std::string> files = RenderAll(folder, charuco, two, false);
-  ExpectCalibrationError([&]() { Calibrate(files, charuco); }, { "fewer than three" });
-  ExpectCalibrationError([&]() { Calibrate({}, charuco); }, { "none of 0" });
+  const std::vector<std::string> files = RenderAll(folder, charucoBoard, two, false);
+  ExpectError([&]() { Calibrate(files, charucoBoard); }, { "fewer than three" });
+  ExpectError([&]() { Calibrate({}, charucoBoard); }, { "none of 0" });
 }
 
 // Two pictures of another camera do not spoil the others.
@@ -313,7 +299,7 @@ TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
-  std::vector<std::string> files = RenderAll(folder, charuco, truth, false);
+  std::vector<std::string> files = RenderAll(folder, charucoBoard, truth, false);
   for (int i = 0; i < 2; ++i)
   {
     cv::Mat larger;
@@ -321,7 +307,7 @@ TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
     files.push_back(folder.Path("larger" + std::to_string(i) + ".png"));
     cv::imwrite(files.back(), larger);
   }
-  BoardCalibration calibration = Calibrate(files, charuco);
+  BoardCalibration calibration = Calibrate(files, charucoBoard);
   for (std::size_t i = truth.size(); i < files.size(); ++i)
   {
     EXPECT_FALSE(calibration.pictures[i].used);
@@ -337,10 +323,10 @@ TEST(BoardCalibration, OnePictureThreeTimes)
   TemporaryFolder folder;
   std::vector<CalibratedImage> one = Cameras({});
   one.resize(1);
-  const std::string file = RenderAll(folder, charuco, one, false).front();
+  const std::string file = RenderAll(folder, charucoBoard, one, false).front();
   try
   {
-    const BoardCalibration calibration = Calibrate({ file, file, file }, charuco);
+    const BoardCalibration calibration = Calibrate({ file, file, file }, charucoBoard);
     EXPECT_TRUE(std::isfinite(calibration.error));
   }
   catch (const Error& error)
@@ -352,16 +338,16 @@ TEST(BoardCalibration, OnePictureThreeTimes)
 TEST(BoardCalibration, PictureThatIsMissingOrNone)
 {
   TemporaryFolder folder;
-  ExpectCalibrationError(
-    [&]() { Calibrate({ folder.Path("missing.png") }, charuco); }, { "missing.png" });
+  ExpectError(
+    [&]() { Calibrate({ folder.Path("missing.png") }, charucoBoard); }, { "missing.png" });
   const std::string text = folder.Write("text.png", "this is no picture");
-  ExpectCalibrationError([&]() { Calibrate({ text }, charuco); }, { "text.png" });
+  ExpectError([&]() { Calibrate({ text }, charucoBoard); }, { "text.png" });
 }
 
 TEST(BoardCalibration, OptionsOutOfRange)
 {
   BoardCalibrationOptions options;
-  options.board = BoardFromText(charuco);
+  options.board = BoardFromText(charucoBoard);
   options.maximumCoefficients = 3;
   EXPECT_THROW(CalibrateFromBoard({}, options), Error);
   options = {};

@@ -4,6 +4,7 @@
 #include "Calibration/BoardText.h"
 #include "Common/Error.h"
 #include "Support/BoardRendering.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +16,6 @@ using namespace freespace;
 
 namespace
 {
-
-const std::string charucoBoard = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
-const std::string chessboardBoard = "chessboard:7x6:0.03";
 
 // Every corner that the image shows, but for those near its border or near what hides a part, was found.
 void ExpectAllFound(const BoardCorners& corners, const CalibratedImage& camera,
@@ -45,15 +43,7 @@ void ExpectAllFound(const BoardCorners& corners, const CalibratedImage& camera,
 // What DetectBoard says is wrong.
 std::string BoardFaultOf(const Board& board)
 {
-  try
-  {
-    DetectBoard(cv::Mat(100, 100, CV_8U, cv::Scalar(128)), board);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
+  return ErrorOf([&board] { DetectBoard(cv::Mat(100, 100, CV_8U, cv::Scalar(128)), board); });
 }
 
 }

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ParallelForWithProgress.h"
 
+#include "Support/Core/TwoThreads.h"
+
 #include <gtest/gtest.h>
 
 #include <thread>
 #include <vector>
 
 using namespace freespace;
-
-namespace
-{
-
-void TwoThreads(
-  std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)
-{
-  std::thread other([&] { body(0, count / 2); });
-  body(count / 2, count);
-  other.join();
-}
-
-}
 
 TEST(ParallelForWithProgress, DoesAllOnce)
 {

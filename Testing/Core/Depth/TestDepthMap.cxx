@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Support/DepthMapBytes.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -19,17 +20,8 @@ const std::vector<float> depths = { 1, 2, 3, 4.5F, 0, 6 };
 void ExpectDepthMapError(const std::string& name, const std::string& bytes, const std::string& word)
 {
   TemporaryFolder folder;
-  try
-  {
-    ReadDepthMap(folder.Write(name, bytes));
-    FAIL() << "no error of " << name;
-  }
-  catch (const Error& error)
-  {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(name), std::string::npos) << text;
-    EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is not in: " << text;
-  }
+  SCOPED_TRACE(name);
+  ExpectError([&] { ReadDepthMap(folder.Write(name, bytes)); }, { name, word });
 }
 
 void ExpectTheMap(const DepthMap& map)

@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Support/FeatureViews.h"
+#include "Support/Core/MapEdges.h"
 
 #include <gtest/gtest.h>
 
@@ -14,18 +15,6 @@
 
 using namespace freespace;
 using Eigen::Vector2d;
-
-namespace
-{
-
-bool HasEdge(const DisparityMap& map, int a, int b)
-{
-  return std::any_of(map.triangles.begin(), map.triangles.end(),
-    [a, b](const std::array<int, 3>& t)
-    { return std::count(t.begin(), t.end(), a) && std::count(t.begin(), t.end(), b); });
-}
-
-}
 
 // Two features that are far apart along an edge, and a bridge that would cross it.
 TEST(DelaunayDisparity, KeptEdgesAreNotCrossed)

@@ -4,6 +4,7 @@
 
 #include "Common/Error.h"
 #include "Support/FeatureViews.h"
+#include "Support/Core/MapEdges.h"
 
 #include <gtest/gtest.h>
 
@@ -21,13 +22,6 @@ using Eigen::Vector3d;
 
 namespace
 {
-
-bool HasFlippedEdge(const DisparityMap& map, int a, int b)
-{
-  return std::any_of(map.triangles.begin(), map.triangles.end(),
-    [a, b](const std::array<int, 3>& t)
-    { return std::count(t.begin(), t.end(), a) && std::count(t.begin(), t.end(), b); });
-}
 
 // The corners of a rhombus on a steep plane, twice as long in depth as wide. In the image the plane is foreshortened, and
 // the diagonal in depth, between the last two, is the shorter one.
@@ -85,11 +79,11 @@ TEST(SpatialFlips, TheShorterDiagonalInSpaceWins)
   DelaunayDisparityOptions options;
   options.spatialFlips = false;
   const DisparityMap image = TriangulateView(views, 0, options);
-  ASSERT_TRUE(HasFlippedEdge(image, 2, 3)) << "Delaunay's in the image";
+  ASSERT_TRUE(HasEdge(image, 2, 3)) << "Delaunay's in the image";
   options.spatialFlips = true;
   const DisparityMap space = TriangulateView(views, 0, options);
-  EXPECT_TRUE(HasFlippedEdge(space, 0, 1));
-  EXPECT_FALSE(HasFlippedEdge(space, 2, 3));
+  EXPECT_TRUE(HasEdge(space, 0, 1));
+  EXPECT_FALSE(HasEdge(space, 2, 3));
   EXPECT_EQ(space.triangles.size(), 2u);
 }
 
@@ -101,7 +95,7 @@ TEST(SpatialFlips, EdgesOfTheStereoStay)
   {
     DelaunayDisparityOptions options;
     options.keepEdges = keepEdges;
-    EXPECT_TRUE(HasFlippedEdge(TriangulateView(views, 0, options), 2, 3));
+    EXPECT_TRUE(HasEdge(TriangulateView(views, 0, options), 2, 3));
   }
 }
 

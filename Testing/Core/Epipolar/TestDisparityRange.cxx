@@ -12,15 +12,10 @@ using namespace freespace;
 namespace
 {
 
-Camera CameraAtX(double x)
-{
-  return ParallelCamera(x, 640, 480, 500);
-}
-
 Camera RandomCamera(std::mt19937& random)
 {
   std::uniform_real_distribution<double> unit(-1, 1);
-  Camera camera = CameraAtX(0);
+  Camera camera = ParallelCamera(0);
   camera.R = Eigen::AngleAxisd(
     0.4 * unit(random), Eigen::Vector3d(unit(random), unit(random), unit(random)).normalized())
                .toRotationMatrix();
@@ -39,18 +34,19 @@ bool IsSeen(const Camera& camera, const Eigen::Vector3d& point)
 TEST(VisibleRange, OfParallelCameras)
 {
   const DisparityRange within{ 0, 10 };
-  const DisparityRange range = VisibleRange(CameraAtX(0), { 400, 100 }, CameraAtX(0.5), within);
+  const DisparityRange range =
+    VisibleRange(ParallelCamera(0), { 400, 100 }, ParallelCamera(0.5), within);
   EXPECT_NEAR(range.minimum, 0, 1e-12);
   EXPECT_NEAR(range.maximum, 400 / 250.0, 1e-9);
   // The camera on the left: to the right, by 640 - 400 pixels.
-  EXPECT_NEAR(
-    VisibleRange(CameraAtX(0), { 400, 100 }, CameraAtX(-0.5), within).maximum, 240 / 250.0, 1e-9);
+  EXPECT_NEAR(VisibleRange(ParallelCamera(0), { 400, 100 }, ParallelCamera(-0.5), within).maximum,
+    240 / 250.0, 1e-9);
   // What is asked for bounds the range.
   const DisparityRange narrow =
-    VisibleRange(CameraAtX(0), { 400, 100 }, CameraAtX(0.5), { 0.25, 0.75 });
+    VisibleRange(ParallelCamera(0), { 400, 100 }, ParallelCamera(0.5), { 0.25, 0.75 });
   EXPECT_NEAR(narrow.minimum, 0.25, 1e-12);
   EXPECT_NEAR(narrow.maximum, 0.75, 1e-12);
-  EXPECT_TRUE(VisibleRange(CameraAtX(0), { 400, 100 }, CameraAtX(0.5), { 2, 3 }).Empty());
+  EXPECT_TRUE(VisibleRange(ParallelCamera(0), { 400, 100 }, ParallelCamera(0.5), { 2, 3 }).Empty());
 }
 
 TEST(VisibleRange, IsWhereThePointIsSeen)
@@ -83,7 +79,8 @@ TEST(VisibleRange, IsWhereThePointIsSeen)
 // the overlap, 640 pixels wide at infinity, is gone at 2 * 500 d = 640. The reference's grid may just miss the end.
 TEST(CommonRange, OfThreeCamerasInARow)
 {
-  const DisparityRange range = CommonRange(CameraAtX(0), CameraAtX(-1), CameraAtX(1), { 0, 10 });
+  const DisparityRange range =
+    CommonRange(ParallelCamera(0), ParallelCamera(-1), ParallelCamera(1), { 0, 10 });
   EXPECT_NEAR(range.minimum, 0, 1e-12);
   EXPECT_LE(range.maximum, 0.64 + 1e-9);
   EXPECT_GT(range.maximum, 0.6);
@@ -91,7 +88,7 @@ TEST(CommonRange, OfThreeCamerasInARow)
 
 TEST(CommonRange, WithoutOverlapIsEmpty)
 {
-  Camera away = CameraAtX(1);
+  Camera away = ParallelCamera(1);
   away.R = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  EXPECT_TRUE(CommonRange(CameraAtX(0), CameraAtX(-1), away, { 0, 10 }).Empty());
+  EXPECT_TRUE(CommonRange(ParallelCamera(0), ParallelCamera(-1), away, { 0, 10 }).Empty());
 }

@@ -3,6 +3,7 @@
 #include "Matching/CandidateSearch.h"
 
 #include "Support/SyntheticImages.h"
+#include "Support/Core/EdgeSides.h"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +16,6 @@ using namespace freespace;
 
 namespace
 {
-
-EdgeSide SideOf(std::uint8_t grey)
-{
-  EdgeSide side;
-  side.fill({ grey, grey, grey, 0 });
-  return side;
-}
 
 void AddToken(EdgeChains& edges, const Eigen::Vector2d& position, const Eigen::Vector2d& tangent,
   std::uint8_t bright = 150, std::uint8_t dark = 150)
@@ -45,18 +39,13 @@ void AddUprightLine(
   edges.begin.push_back(static_cast<int>(edges.tokens.size()));
 }
 
-Camera SearchCameraAt(double x)
-{
-  return ParallelCamera(x, 640, 480, 500);
-}
-
 // Cameras 0.1 to the left and 0.2 to the right of the reference, that see vertical lines in space at these
 // disparities, which the reference sees at column 320. Rows of its tokens are in the middle of the others' pieces.
 struct Lines
 {
   explicit Lines(const std::vector<double>& disparities)
-    : reference{ SearchCameraAt(0), {} }
-    , others{ { SearchCameraAt(-0.1), {} }, { SearchCameraAt(0.2), {} } }
+    : reference{ ParallelCamera(0), {} }
+    , others{ { ParallelCamera(-0.1), {} }, { ParallelCamera(0.2), {} } }
   {
     AddUprightLine(this->reference.edges, 320, 100.5);
     for (const double disparity : disparities)

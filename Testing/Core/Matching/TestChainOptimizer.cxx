@@ -4,6 +4,7 @@
 
 #include "Matching/RunFitting.h"
 #include "Support/SyntheticImages.h"
+#include "Support/Core/EdgeSides.h"
 
 #include <gtest/gtest.h>
 
@@ -17,19 +18,6 @@ using namespace freespace;
 namespace
 {
 
-Camera ChainCameraAt(double x)
-{
-  return ParallelCamera(x, 640, 480, 500);
-}
-
-EdgeSide ChainSideOf(int grey)
-{
-  EdgeSide side;
-  side.fill({ static_cast<std::uint8_t>(grey), static_cast<std::uint8_t>(grey),
-    static_cast<std::uint8_t>(grey), 0 });
-  return side;
-}
-
 // A vertical chain of tokens a pixel apart, from row 100 + first + 0.25 on.
 void AddPieceOfLine(EdgeChains& edges, double column, int first, int tokens, int bright, int dark)
 {
@@ -39,8 +27,8 @@ void AddPieceOfLine(EdgeChains& edges, double column, int first, int tokens, int
     token.position = { column, 100.25 + first + i };
     token.tangent = { 0, 1 };
     token.contrast = 100;
-    token.bright = ChainSideOf(bright);
-    token.dark = ChainSideOf(dark);
+    token.bright = SideOf(bright);
+    token.dark = SideOf(dark);
   }
   edges.begin.push_back(static_cast<int>(edges.tokens.size()));
 }
@@ -50,8 +38,8 @@ void AddPieceOfLine(EdgeChains& edges, double column, int first, int tokens, int
 struct Scene
 {
   explicit Scene(int tokens)
-    : reference{ ChainCameraAt(0), {} }
-    , others{ { ChainCameraAt(-0.1), {} }, { ChainCameraAt(0.2), {} } }
+    : reference{ ParallelCamera(0), {} }
+    , others{ { ParallelCamera(-0.1), {} }, { ParallelCamera(0.2), {} } }
   {
     AddPieceOfLine(this->reference.edges, 320, 1, tokens, 150, 60);
     this->options.minimumRun = 1;
@@ -224,14 +212,14 @@ TEST(ChainOptimizer, NoCombinationIsCheaper)
       for (EdgeToken& token : image.edges.tokens)
       {
         token.position.x() += place(random);
-        token.bright = ChainSideOf(120 + grey(random));
-        token.dark = ChainSideOf(40 + grey(random) / 2);
+        token.bright = SideOf(120 + grey(random));
+        token.dark = SideOf(40 + grey(random) / 2);
       }
     }
     for (EdgeToken& token : scene.reference.edges.tokens)
     {
-      token.bright = ChainSideOf(120 + grey(random));
-      token.dark = ChainSideOf(40 + grey(random) / 2);
+      token.bright = SideOf(120 + grey(random));
+      token.dark = SideOf(40 + grey(random) / 2);
     }
     CandidateSearch search(scene.reference, scene.others, scene.options);
     HypothesisBuilder builder(scene.reference.edges, search, scene.options);

@@ -2,6 +2,7 @@
 #include "Mesh/Distance/TriangleTree.h"
 
 #include "Mesh/NearestOnTriangle.h"
+#include "Support/Core/TwoThreads.h"
 
 #include <gtest/gtest.h>
 
@@ -72,14 +73,6 @@ TriangleMesh RandomMesh(RandomNumbers& random, int points, int triangles, const 
   return mesh;
 }
 
-void OnTwoThreads(
-  std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& body)
-{
-  std::thread other([&] { body(0, count / 2); });
-  body(count / 2, count);
-  other.join();
-}
-
 }
 
 TEST(TriangleTree, IsBruteForceForRandomTriangles)
@@ -144,7 +137,7 @@ TEST(TriangleTree, IsTheSameForAnyNumberOfThreads)
     points.push_back(random.Point());
   }
   const auto one = TriangleTree(mesh).Find(points);
-  const auto two = TriangleTree(mesh, OnTwoThreads).Find(points, HUGE_VAL, OnTwoThreads);
+  const auto two = TriangleTree(mesh, TwoThreads).Find(points, HUGE_VAL, TwoThreads);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     EXPECT_EQ(one[i].triangle, two[i].triangle);

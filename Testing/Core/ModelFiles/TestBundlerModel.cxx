@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -53,19 +54,7 @@ std::string BundlerText(const SparseModel& model, bool fromCorner = false)
 void ExpectBundlerError(const std::string& content, const std::vector<std::string>& words)
 {
   TemporaryFolder folder;
-  try
-  {
-    ReadBundlerModel(folder.Write("bundle.out", content));
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
+  ExpectError([&] { ReadBundlerModel(folder.Write("bundle.out", content)); }, words);
 }
 
 // Cameras see what they saw: every observation is where the lens shows its point.

@@ -7,6 +7,7 @@
 #include "SparseModel/ColmapModel.h"
 #include "Support/ModelTexts.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -83,19 +84,8 @@ SparseModel ReadText(const std::string& name, const std::string& text)
 void ExpectFormatError(
   const std::string& name, const std::string& text, const std::vector<std::string>& words)
 {
-  try
-  {
-    ReadText(name, text);
-    FAIL() << "no error of " << name;
-  }
-  catch (const Error& error)
-  {
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
+  SCOPED_TRACE(name);
+  ExpectError([&] { ReadText(name, text); }, words);
 }
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to)

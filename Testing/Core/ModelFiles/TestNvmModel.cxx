@@ -5,6 +5,7 @@
 #include "SparseModel/SparseViews.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -61,19 +62,7 @@ std::string NvmText(const SparseModel& model, double r)
 void ExpectNvmError(const std::string& content, const std::vector<std::string>& words)
 {
   TemporaryFolder folder;
-  try
-  {
-    ReadNvmModel(folder.Write("model.nvm", content));
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
+  ExpectError([&] { ReadNvmModel(folder.Write("model.nvm", content)); }, words);
 }
 
 }

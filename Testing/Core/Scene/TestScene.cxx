@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -26,23 +27,12 @@ std::string WithBoard(const std::string& text)
   return R"({ "images": "pictures", "model": "sparse", "board": )" + text + "}";
 }
 
-void ExpectSceneError(const std::string& content, const std::vector<std::string>& words)
+void ExpectSceneError(const std::string& content, std::vector<std::string> words)
 {
   TemporaryFolder folder;
-  try
-  {
-    ReadScene(folder.Write("scene.json", content));
-    FAIL() << "no error for " << content;
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find(folder.Path("scene.json")), std::string::npos);
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
+  SCOPED_TRACE(content);
+  words.push_back(folder.Path("scene.json"));
+  ExpectError([&] { ReadScene(folder.Write("scene.json", content)); }, words);
 }
 
 void WriteSceneModel(const TemporaryFolder& folder, const std::vector<std::string>& images)

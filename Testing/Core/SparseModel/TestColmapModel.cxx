@@ -5,6 +5,8 @@
 #include "Support/ExpectSameModel.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ColmapImage.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -122,19 +124,7 @@ void ExpectTheModel(const SparseModel& model)
 // The message of the error, which must name all the words.
 void ExpectColmapError(const TemporaryFolder& folder, const std::vector<std::string>& words)
 {
-  try
-  {
-    ReadColmapModel(folder.Path());
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    for (const std::string& word : words)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-        << "'" << word << "' is not in: " << error.what();
-    }
-  }
+  ExpectError([&] { ReadColmapModel(folder.Path()); }, words);
 }
 
 // A text model of which one file is replaced must be refused with these words.
@@ -145,14 +135,6 @@ void ExpectTextError(
   WriteTextModel(folder);
   folder.Write(file, content);
   ExpectColmapError(folder, words);
-}
-
-CalibratedImage ImageWithCamera(const std::string& camera)
-{
-  TemporaryFolder folder;
-  folder.Write("cameras.txt", "1 " + camera + "\n");
-  folder.Write("images.txt", "1 2 0 0 0 1 2 3 1 a.jpg\n\n"); // a quaternion that is not normalized
-  return CalibratedImages(ReadColmapModel(folder.Path())).at(0);
 }
 
 }

@@ -4,6 +4,7 @@
 
 #include "Support/ExpectSameModel.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ColmapImage.h"
 
 #include <gtest/gtest.h>
 
@@ -28,14 +29,6 @@ SparseModel ReadWith(const TemporaryFolder& folder, const std::string& before = 
   folder.Write("images.txt", before + images);
   folder.Write("points3D.txt", before + points);
   return ReadColmapModel(folder.Path());
-}
-
-CalibratedImage VariantWithCamera(const std::string& camera)
-{
-  TemporaryFolder folder;
-  folder.Write("cameras.txt", "1 " + camera + "\n");
-  folder.Write("images.txt", "1 1 0 0 0 1 2 3 1 a.jpg\n\n");
-  return CalibratedImages(ReadColmapModel(folder.Path())).at(0);
 }
 
 }
@@ -97,17 +90,17 @@ TEST(ColmapVariants, RigsAndFramesBesideAModel)
 TEST(ColmapVariants, FisheyeLenses)
 {
   using List = std::vector<double>;
-  const CalibratedImage simple = VariantWithCamera("SIMPLE_RADIAL_FISHEYE 9 9 5 3 4 1");
+  const CalibratedImage simple = ImageWithCamera("SIMPLE_RADIAL_FISHEYE 9 9 5 3 4 1");
   EXPECT_EQ(simple.lens, LensKind::Fisheye);
   EXPECT_EQ(simple.distortion, (List{ 1, 0, 0, 0 }));
-  EXPECT_EQ(VariantWithCamera("RADIAL_FISHEYE 9 9 5 3 4 1 2").distortion, (List{ 1, 2, 0, 0 }));
-  const CalibratedImage openCV = VariantWithCamera("OPENCV_FISHEYE 9 9 5 6 3 4 1 2 3 4");
+  EXPECT_EQ(ImageWithCamera("RADIAL_FISHEYE 9 9 5 3 4 1 2").distortion, (List{ 1, 2, 0, 0 }));
+  const CalibratedImage openCV = ImageWithCamera("OPENCV_FISHEYE 9 9 5 6 3 4 1 2 3 4");
   EXPECT_EQ(openCV.lens, LensKind::Fisheye);
   EXPECT_EQ(openCV.distortion, (List{ 1, 2, 3, 4 }));
-  const CalibratedImage prism = VariantWithCamera("THIN_PRISM_FISHEYE 9 9 5 6 3 4 1 2 3 4 5 6 7 8");
+  const CalibratedImage prism = ImageWithCamera("THIN_PRISM_FISHEYE 9 9 5 6 3 4 1 2 3 4 5 6 7 8");
   EXPECT_EQ(prism.lens, LensKind::ThinPrismFisheye);
   EXPECT_EQ(prism.distortion, (List{ 1, 2, 3, 4, 5, 6, 7, 8 }));
-  const CalibratedImage fov = VariantWithCamera("FOV 9 9 5 6 3 4 0.5");
+  const CalibratedImage fov = ImageWithCamera("FOV 9 9 5 6 3 4 0.5");
   EXPECT_EQ(fov.lens, LensKind::FieldOfView);
   EXPECT_EQ(fov.distortion, (List{ 0.5 }));
 }

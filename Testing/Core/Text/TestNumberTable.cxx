@@ -2,6 +2,7 @@
 #include "Text/NumberTable.h"
 
 #include "Common/Error.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +21,7 @@ std::vector<double> Read(const std::string& text, std::size_t columns = 3)
 
 std::string TableErrorOf(const std::string& text)
 {
-  try
-  {
-    (void)Read(text);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return ErrorOf([&text] { (void)Read(text); });
 }
 
 }

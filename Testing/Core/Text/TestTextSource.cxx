@@ -3,30 +3,13 @@
 
 #include "Common/Error.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
 using namespace freespace;
-
-namespace
-{
-
-std::string TextFaultOf(const std::function<void()>& action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-}
-
-}
 
 TEST(TextSource, FieldsOfALine)
 {
@@ -81,11 +64,11 @@ TEST(TextSource, FaultsNameFileLineAndField)
   text.NextLine();
   text.NextLine();
   text.Number<int>("a number");
-  EXPECT_EQ(TextFaultOf([&] { text.Number<int>("a width"); }),
+  EXPECT_EQ(ErrorOf([&] { text.Number<int>("a width"); }),
     "Cannot read " + file + ", line 2: 'x' is not a width.");
-  EXPECT_EQ(TextFaultOf([&] { text.Field("a name"); }),
+  EXPECT_EQ(ErrorOf([&] { text.Field("a name"); }),
     "Cannot read " + file + ", line 2: it ends before a name.");
-  EXPECT_EQ(TextFaultOf([&] { text.Fail("wrong"); }), "Cannot read " + file + ", line 2: wrong.");
+  EXPECT_EQ(ErrorOf([&] { text.Fail("wrong"); }), "Cannot read " + file + ", line 2: wrong.");
 }
 
 TEST(TextSource, EmptyFile)
@@ -101,8 +84,8 @@ TEST(TextSource, MissingFileAndFolder)
 {
   const TemporaryFolder folder;
   const std::string absent = folder.Path("absent.txt");
-  EXPECT_NE(TextFaultOf([&] { TextSource text(absent); }).find(absent), std::string::npos);
-  EXPECT_NE(TextFaultOf([&] { ReadWholeFile(folder.Path()); }), "");
+  EXPECT_NE(ErrorOf([&] { TextSource text(absent); }).find(absent), std::string::npos);
+  EXPECT_NE(ErrorOf([&] { ReadWholeFile(folder.Path()); }), "");
   const std::string bytes("a\0b\n", 4);
   EXPECT_EQ(ReadWholeFile(folder.Write("bytes", bytes)), bytes);
 }

@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Support/TemporaryFolder.h"
+#include "Support/Core/ErrorOf.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +21,7 @@ XmlNode Parse(const std::string& text)
 // The message of the Error that the text gives.
 std::string XmlErrorOf(const std::string& text)
 {
-  try
-  {
-    (void)Parse(text);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return ErrorOf([&text] { (void)Parse(text); });
 }
 
 void ExpectFault(const std::string& text, const std::string& fault)
