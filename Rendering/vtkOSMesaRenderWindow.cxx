@@ -218,8 +218,19 @@ void vtkOSMesaRenderWindow::LeaveToX()
   }
 }
 
+// Without a context there are no functions of OpenGL to call; why there is none has been said.
+bool vtkOSMesaRenderWindow::CanRender()
+{
+  this->Initialize();
+  return this->Initialized != 0;
+}
+
 void vtkOSMesaRenderWindow::Render()
 {
+  if (!this->CanRender())
+  {
+    return;
+  }
   this->Superclass::Render();
   this->LeaveToX();
 }
@@ -227,6 +238,10 @@ void vtkOSMesaRenderWindow::Render()
 int vtkOSMesaRenderWindow::ReadPixels(
   const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right)
 {
+  if (!this->CanRender())
+  {
+    return VTK_ERROR;
+  }
   const int result = this->Superclass::ReadPixels(rect, front, glFormat, glType, data, right);
   this->LeaveToX();
   return result;
@@ -234,6 +249,10 @@ int vtkOSMesaRenderWindow::ReadPixels(
 
 int vtkOSMesaRenderWindow::GetZbufferData(int x1, int y1, int x2, int y2, float* z)
 {
+  if (!this->CanRender())
+  {
+    return VTK_ERROR;
+  }
   const int result = this->Superclass::GetZbufferData(x1, y1, x2, y2, z);
   this->LeaveToX();
   return result;
@@ -270,9 +289,9 @@ void vtkOSMesaRenderWindow::PopContext()
 
 int vtkOSMesaRenderWindow::SupportsOpenGL()
 {
-  this->Initialize();
+  const bool canRender = this->CanRender();
   this->LeaveToX();
-  return this->Initialized ? 1 : 0;
+  return canRender ? 1 : 0;
 }
 
 vtkTypeBool vtkOSMesaRenderWindow::IsDirect()

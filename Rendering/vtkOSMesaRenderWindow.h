@@ -112,6 +112,7 @@ protected:
     const vtkRecti& rect, int front, int glFormat, int glType, void* data, int right) override;
 
 private:
+  bool CanRender();
   void LeaveToX();
 
   vtkOSMesaRenderWindow(const vtkOSMesaRenderWindow&) = delete;

@@ -239,8 +239,8 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkSurfacePicture::Stage::ReadPixels(
 {
   this->window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
-  this->window->GetPixelData(0, 0, width - 1, height - 1, 1, pixels);
-  if (pixels->GetNumberOfTuples() != vtkIdType(width) * height)
+  const int status = this->window->GetPixelData(0, 0, width - 1, height - 1, 1, pixels);
+  if (status != VTK_OK || pixels->GetNumberOfTuples() != vtkIdType(width) * height)
   {
     return nullptr;
   }

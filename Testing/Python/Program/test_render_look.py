@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How a picture of the program looks: zoom, up, background, edges, colours, size, and the comparison of pictures."""
+import os
+import subprocess
 import unittest
 
 import numpy as np
 
-from test_pictures import WithScene, picture, run, write_triangle
+from test_pictures import PROGRAM, WithScene, picture, run, write_triangle
 
 
 class TestLook(WithScene):
@@ -78,6 +80,15 @@ class TestLook(WithScene):
         self.assertGreater(picture(self.folder / 'difference.png').max(), 100)
         self.assertEqual(run('render', 'triangle.ply', '-o', 'a.png', '--ref', 'triangle.ply',
                              cwd=self.folder).returncode, 1)
+
+    def test_without_opengl_there_is_one_sentence_and_no_picture(self):
+        write_triangle(self.folder / 'triangle.ply')
+        result = subprocess.run([PROGRAM, 'render', 'triangle.ply', '-o', 'out.png', '--quiet'], cwd=self.folder,
+                                env={**os.environ, 'MESA_GL_VERSION_OVERRIDE': '2.1'}, capture_output=True, text=True,
+                                timeout=60)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stderr, 'freespace: libOSMesa gave no OpenGL 3.2 context.\n')
+        self.assertFalse((self.folder / 'out.png').exists())
 
 
 if __name__ == '__main__':

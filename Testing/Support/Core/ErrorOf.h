@@ -28,15 +28,13 @@ inline std::string ErrorOf(const std::function<void()>& action)
 }
 
 /// Expects an Error whose message has all of these words.
-inline void ExpectError(
-  const std::function<void()>& action, const std::vector<std::string>& words)
+inline void ExpectError(const std::function<void()>& action, const std::vector<std::string>& words)
 {
   const std::string message = ErrorOf(action);
   ASSERT_FALSE(message.empty()) << "no error";
   for (const std::string& word : words)
   {
-    EXPECT_NE(message.find(word), std::string::npos)
-      << "'" << word << "' is not in: " << message;
+    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' is not in: " << message;
   }
 }
 
