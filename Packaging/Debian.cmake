@@ -51,12 +51,16 @@ if(FREESPACE_DEBIAN_FOLDERS)
 endif()
 
 # Loaded at run time, which shlibdeps does not see.
-set(rendered "")
+set(loaded "")
 if(VTK_VERSION VERSION_LESS 9.4)
-  set(rendered "libosmesa6")
+  list(APPEND loaded "libosmesa6")
 endif()
+if(FREESPACE_IMGCODECS_SONAME MATCHES "^libopencv_imgcodecs\\.so\\.([0-9]+)$")
+  list(APPEND loaded "libopencv-imgcodecs${CMAKE_MATCH_1}")
+endif()
+list(JOIN loaded ", " loaded)
 freespace_package(runtime ${freespace_libraries} libs "surfaces from photographs - libraries"
-  "This package contains the libraries." "${rendered}")
+  "This package contains the libraries." "${loaded}")
 string(CONCAT needed "${same_version}, libvtk9-dev, libeigen3-dev, libcgal-dev, libopencv-dev, "
   "libopencv-contrib-dev, libceres-dev, libnanoflann-dev, nlohmann-json3-dev, libjpeg-dev, libexpat1-dev")
 freespace_package(development libfreespace-dev libdevel "surfaces from photographs - development files"

@@ -6,12 +6,11 @@
 #include "Common/Error.h"
 #include "Files/FileNames.h"
 #include "Images/DecodeImage.h"
+#include "Images/ImageCodecs.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <vector>
-
-#include <opencv2/imgcodecs.hpp>
 
 namespace freespace
 {
@@ -52,8 +51,8 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
       throw Error("Cannot read the image " + picture.file + " again.");
     }
     AtomicOutput output(target.string());
-    std::vector<std::uint8_t> jpeg;
-    cv::imencode(".jpg", DrawBoardCorners(pixels, picture.corners), jpeg);
+    const std::vector<std::uint8_t> jpeg =
+      EncodeImage(".jpg", DrawBoardCorners(pixels, picture.corners));
     output.Write(jpeg.data(), jpeg.size());
     output.Commit();
   }

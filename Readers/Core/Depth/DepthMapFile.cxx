@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
+#include "Images/ImageCodecs.h"
 #include "Text/TextSource.h"
 
 #include <algorithm>
@@ -144,7 +145,7 @@ DepthMap ReadPng(const std::string& file)
   cv::Mat pixels;
   try
   {
-    pixels = cv::imdecode(
+    pixels = DecodeImageBytes(
       cv::Mat(1, static_cast<int>(content.size()), CV_8UC1, content.data()), cv::IMREAD_UNCHANGED);
   }
   catch (const cv::Exception&)

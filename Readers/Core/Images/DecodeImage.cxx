@@ -2,6 +2,7 @@
 #include "Images/DecodeImage.h"
 
 #include "Common/FileExtension.h"
+#include "Images/ImageCodecs.h"
 #include "Text/WholeFile.h"
 
 #include <opencv2/imgcodecs.hpp>
@@ -83,9 +84,9 @@ cv::Mat DecodeImage(const std::string& file, bool isColor)
     const std::string ending = LowerCaseExtension(file);
     if (ending == ".tif" || ending == ".tiff")
     {
-      return WithChannels(EightBits(cv::imread(file, cv::IMREAD_UNCHANGED)), isColor);
+      return WithChannels(EightBits(ReadImageFile(file, cv::IMREAD_UNCHANGED)), isColor);
     }
-    return EightBits(cv::imread(file,
+    return EightBits(ReadImageFile(file,
       (isColor ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE) | cv::IMREAD_ANYDEPTH |
         cv::IMREAD_IGNORE_ORIENTATION));
   }

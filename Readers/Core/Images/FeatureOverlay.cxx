@@ -3,9 +3,9 @@
 
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
+#include "Images/ImageCodecs.h"
 #include "Images/ImageFile.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -84,8 +84,7 @@ void WriteFeatureOverlay(const View& view, const std::vector<std::vector<int>>& 
     }
   }
   AtomicOutput output(file);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", picture, png);
+  const std::vector<std::uint8_t> png = EncodeImage(".png", picture);
   output.Write(png.data(), png.size());
   output.Commit();
 }

@@ -3,6 +3,7 @@
 #include "Images/ImageMask.h"
 
 #include "Common/Error.h"
+#include "Images/ImageCodecs.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -22,7 +23,7 @@ cv::Mat LoadMask(const std::string& path, int width, int height)
   cv::Mat mask;
   try
   {
-    mask = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    mask = ReadImageFile(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   }
   catch (const cv::Exception&)
   {

@@ -2,6 +2,8 @@
 #include "Files/PathChecks.h"
 #include "Images/ImageSize.h"
 
+#include "Images/ImageCodecs.h"
+
 #include <opencv2/imgcodecs.hpp>
 
 #include <cstdint>
@@ -105,7 +107,7 @@ Size ReadImageSize(const std::string& path)
     cv::Mat picture;
     try
     {
-      picture = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+      picture = ReadImageFile(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     }
     catch (const cv::Exception&)
     {

@@ -49,6 +49,13 @@ class TestUsage(unittest.TestCase):
     def test_version(self):
         self.assertRegex(run('--version').stdout, r'freespace \d+\.\d+\.\d+')
 
+    def test_only_what_a_command_needs_is_loaded(self):
+        loaded = subprocess.run([PROGRAM, '--version'], capture_output=True, text=True, timeout=60,
+                                env={**os.environ, 'LD_DEBUG': 'files'}).stderr
+        self.assertIn('libvtkCommonCore', loaded)
+        self.assertNotIn('libopencv_imgcodecs', loaded)
+        self.assertNotIn('libOSMesa', loaded)
+
     def test_each_command_has_help_with_an_example(self):
         for command in COMMANDS:
             with self.subTest(command=command):

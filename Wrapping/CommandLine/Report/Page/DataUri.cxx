@@ -2,6 +2,7 @@
 #include "Report/Page/DataUri.h"
 
 #include "Common/Error.h"
+#include "Images/ImageCodecs.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -37,7 +38,7 @@ InlinePicture InlinePictureFromFile(const std::string& file, int widest, int qua
   std::vector<unsigned char> jpeg;
   try
   {
-    picture = cv::imread(file, cv::IMREAD_COLOR);
+    picture = ReadImageFile(file, cv::IMREAD_COLOR);
     if (!picture.empty())
     {
       if (picture.cols > widest)
@@ -45,7 +46,7 @@ InlinePicture InlinePictureFromFile(const std::string& file, int widest, int qua
         const int height = std::max(1, cvRound(double(picture.rows) * widest / picture.cols));
         cv::resize(picture, picture, { widest, height }, 0, 0, cv::INTER_AREA);
       }
-      cv::imencode(".jpg", picture, jpeg, { cv::IMWRITE_JPEG_QUALITY, quality });
+      jpeg = EncodeImage(".jpg", picture, { cv::IMWRITE_JPEG_QUALITY, quality });
     }
   }
   catch (const cv::Exception&)
