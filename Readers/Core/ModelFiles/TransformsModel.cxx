@@ -121,6 +121,36 @@ SparseCamera CameraOf(const Frame& frame, const fs::path& photograph)
   return camera;
 }
 
+// What nerfstudio has done to the world of the model that it converted.
+struct WorldChange
+{
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
+WorldChange WorldChangeOf(const JsonNode& file)
+{
+  WorldChange change;
+  const char* key = "applied_transform";
+  if (!file.Has(key))
+  {
+    return change;
+  }
+  const JsonNode matrix = file.At(key);
+  const std::vector<double> m = matrix.Numbers(matrix.Elements().size() == 3 ? 12 : 16);
+  const Eigen::Matrix<double, 3, 4> rows =
+    Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(m.data());
+  change.rotation = rows.leftCols<3>();
+  change.translation = rows.col(3);
+  constexpr double rounding = 1e-6;
+  if (!(change.rotation.isUnitary(rounding) && change.rotation.determinant() > 0 &&
+        change.translation.allFinite()))
+  {
+    matrix.Fail("it is no rotation with a translation");
+  }
+  return change;
+}
+
 }
 
 SparseModel ReadTransformsModel(const std::string& file)
@@ -128,6 +158,7 @@ SparseModel ReadTransformsModel(const std::string& file)
   const JsonDocument document(file);
   const JsonNode root = document.Root();
   const fs::path folder = fs::path(file).parent_path();
+  const WorldChange change = WorldChangeOf(root);
   ModelBuilder model(file, folder.string());
   for (const JsonNode& element : root.At("frames").Elements())
   {
@@ -140,8 +171,9 @@ SparseModel ReadTransformsModel(const std::string& file)
     const Eigen::Matrix<double, 3, 4> worldFromCamera =
       Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(m.data());
     const Eigen::Vector3d turn(1, -1, -1); // from y up, looking along -z
-    model.AddImage(name, camera, turn.asDiagonal() * worldFromCamera.leftCols<3>().transpose(),
-      worldFromCamera.col(3));
+    model.AddImage(name, camera,
+      turn.asDiagonal() * worldFromCamera.leftCols<3>().transpose() * change.rotation,
+      change.rotation.transpose() * (worldFromCamera.col(3) - change.translation));
   }
   return model.Take();
 }

@@ -13,7 +13,8 @@ namespace freespace
 /// data) and a `transform_matrix` from camera to world, the camera looking along -z, y up. The lens is in
 /// the file or in the frame: fl_x fl_y cx cy w h or camera_angle_x, with `camera_model` OPENCV, PINHOLE,
 /// SIMPLE_PINHOLE, OPENCV_FISHEYE or instant-ngp's `is_fisheye`, and k1 k2 k3 k4 p1 p2. Where w and h are
-/// missing the images have them. The world is that of the file: an `applied_transform` is not undone.
+/// missing the images have them. An `applied_transform`, by which nerfstudio has turned the world of the model
+/// that it converted, is undone: the cameras are those of that model.
 ///
 /// Throws Error naming the file, place and fault.
 SparseModel ReadTransformsModel(const std::string& file);

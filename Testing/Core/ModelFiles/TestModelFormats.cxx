@@ -132,6 +132,23 @@ TEST(ModelFormats, TransformsOfInstantNgp)
     (image.camera.FromWorld({ 1.5, 2.25, -1 }) - Eigen::Vector3d(0.5, -0.25, 4)).norm(), exact);
 }
 
+TEST(ModelFormats, TransformsWhoseWorldWasTurned)
+{
+  // nerfstudio multiplies the pose of each frame from the left.
+  const auto read = [](const std::string& applied, const std::string& pose)
+  {
+    const SparseModel model = ReadText("transforms.json",
+      R"({"camera_angle_x": 1.5, "w": 800, "h": 600, )" + applied +
+        R"("frames": [{"file_path": "a.png", "transform_matrix": )" + pose + "}]}");
+    return CalibratedImages(model)[0].camera;
+  };
+  const Camera expected = read("", "[[0.6,-0.8,0,1],[0.8,0.6,0,2],[0,0,1,3],[0,0,0,1]]");
+  const Camera turned = read(R"("applied_transform": [[1,0,0,0],[0,0,1,0],[0,-1,0,0.5]], )",
+    "[[0.6,-0.8,0,1],[0,0,1,3],[-0.8,-0.6,0,-1.5],[0,0,0,1]]");
+  EXPECT_LT((turned.Center() - expected.Center()).norm(), exact);
+  EXPECT_LT((turned.FromWorld({ 4, -2, 7 }) - expected.FromWorld({ 4, -2, 7 })).norm(), exact);
+}
+
 TEST(ModelFormats, TransformsThatAreRefused)
 {
   const std::string good = TransformsText(MakeSyntheticModel(2, 0, LensModel::OpenCV), true);
@@ -145,6 +162,10 @@ TEST(ModelFormats, TransformsThatAreRefused)
     name, Replaced(good, "[0,0,0,1]", "[0,0,1]"), { "'frames'[0], 'transform_matrix'", "16" });
   ExpectFormatError(
     name, Replaced(good, "image1.jpg", "image0.jpg"), { "two images are called image0.jpg" });
+  ExpectFormatError(name,
+    Replaced(
+      good, "\"frames\"", R"("applied_transform": [[2,0,0,0],[0,2,0,0],[0,0,2,0]], "frames")"),
+    { name, "'applied_transform'", "no rotation" });
   ExpectFormatError(name, "{\"frames\": [", { name, "not valid JSON" });
 }
 
