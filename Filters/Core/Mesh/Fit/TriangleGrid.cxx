@@ -24,18 +24,35 @@ TriangleGrid::TriangleGrid(
   {
     this->Low = box.min();
   }
-  while (std::size_t(1) << this->Bits < 2 * triangles.size() + 1)
+  this->FindPlanes();
+  this->ListTriangles();
+}
+
+void TriangleGrid::FindPlanes()
+{
+  this->Planes.reserve(this->Corners.size());
+  for (const auto& [a, b, c] : this->Corners)
+  {
+    const Vector3d& corner = this->Points[a];
+    const Vector3d normal = (this->Points[b] - corner).cross(this->Points[c] - corner);
+    this->Planes.push_back({ corner, normal, normal.squaredNorm() });
+  }
+}
+
+void TriangleGrid::ListTriangles()
+{
+  while (std::size_t(1) << this->Bits < 2 * this->Corners.size() + 1)
   {
     ++this->Bits;
   }
   const auto visit = [&](auto&& body)
   {
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t t = 0; t < this->Corners.size(); ++t)
     {
       Eigen::AlignedBox3d around;
-      for (const int corner : triangles[t])
+      for (const int corner : this->Corners[t])
       {
-        around.extend(points[corner]);
+        around.extend(this->Points[corner]);
       }
       const Index low = this->CellOf(around.min()), high = this->CellOf(around.max());
       for (Index at = low; at.z() <= high.z(); ++at.z())
@@ -89,20 +106,19 @@ void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double
         for (std::uint32_t i = this->Begin[key]; i < this->Begin[key + 1]; ++i)
         {
           const int t = this->List[i];
-          const Vector3d &a = this->Points[this->Corners[t][0]],
-                         &b = this->Points[this->Corners[t][1]],
-                         &c = this->Points[this->Corners[t][2]];
-          const Vector3d normal = (b - a).cross(c - a);
-          if (direction.dot(normal) >= 0)
+          const Plane& plane = this->Planes[t];
+          if (direction.dot(plane.normal) >= 0)
           {
             continue;
           }
           // Farther from the triangle's plane than the nearest place so far, with a margin for rounding.
-          const double above = normal.dot(point - a);
-          if (above * above > 1.000001 * distance * distance * normal.squaredNorm())
+          const double above = plane.normal.dot(point - plane.corner);
+          if (above * above > 1.000001 * distance * distance * plane.squaredNormal)
           {
             continue;
           }
+          const Vector3d &a = plane.corner, &b = this->Points[this->Corners[t][1]],
+                         &c = this->Points[this->Corners[t][2]];
           const Vector3d weights = NearestOnTriangle(point, a, b, c);
           const double found = (weights[0] * a + weights[1] * b + weights[2] * c - point).norm();
           if (found < distance || (found == distance && t < place.triangle))

@@ -35,6 +35,16 @@ public:
 
 private:
   using Index = Eigen::Matrix<std::int64_t, 3, 1>;
+
+  /// Of a triangle, so that most are rejected without a look at its corners.
+  struct Plane
+  {
+    Eigen::Vector3d corner, normal; ///< of twice the triangle's area
+    double squaredNormal;
+  };
+
+  void FindPlanes();
+  void ListTriangles();
   Index CellOf(const Eigen::Vector3d& point) const;
   std::uint64_t KeyOf(const Index& cell) const;
   void Look(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach,
@@ -44,6 +54,7 @@ private:
   const Triangles& Corners;
   double Cell;
   Eigen::Vector3d Low = Eigen::Vector3d::Zero();
+  std::vector<Plane> Planes;        // per triangle
   int Bits = 0;                     // of the table's size
   std::vector<std::uint32_t> Begin; // per place of a hash table, of its triangles
   std::vector<std::int32_t> List;
