@@ -3,6 +3,7 @@
 
 #include "Contour/BisectionContour.h"
 #include "Contour/Lattice/ContourEstimate.h"
+#include "Data/Boxes.h"
 #include "Data/ObservedTriangles.h"
 #include "Data/PointNormals.h"
 #include "Execution/AlgorithmErrors.h"
@@ -74,11 +75,6 @@ private:
   vtkImplicitFunction* Function;
   bool IsSafe;
 };
-
-Eigen::AlignedBox3d MakeBox(const double b[6])
-{
-  return Eigen::AlignedBox3d(Eigen::Vector3d(b[0], b[2], b[4]), Eigen::Vector3d(b[1], b[3], b[5]));
-}
 
 /// Whether there are features, but no view with a triangle that could carve anything.
 bool IsMereHull(const freespace::FreespaceUnion& core)
@@ -276,7 +272,7 @@ bool vtkBisectionContourFilter::Prepare(Task& task, const freespace::Progress& p
   task.options.sharp = this->SharpEdges != 0;
   task.options.sharpAngle = this->SharpAngle;
   task.options.memoryLimit = this->MemoryLimit;
-  task.bounds = MakeBox(this->Bounds);
+  task.bounds = freespace::BoxOf(this->Bounds);
   task.function = std::make_unique<FunctionField>(this->ImplicitFunction);
   auto* freespaceUnion = vtkFreespaceUnion::SafeDownCast(this->ImplicitFunction);
   if (freespaceUnion)

@@ -3,7 +3,9 @@
 
 #include "Common/ParallelForWithProgress.h"
 #include "Common/Progress.h"
-#include "Data/ViewBlocks.h"
+#include "Data/BlockMaps.h"
+#include "Data/Boxes.h"
+#include "Data/ViewEdits.h"
 #include "Data/ViewInput.h"
 #include "Execution/AskAll.h"
 #include "Execution/SMPParallelFor.h"
@@ -15,10 +17,10 @@
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkDemandDrivenPipeline.h>
-#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -35,6 +37,7 @@ struct vtkFreespaceUnion::Internals
   vtkSmartPointer<vtkAlgorithmOutput> Connection;
   vtkSmartPointer<vtkAlgorithm> Producer; ///< which an output does not keep alive
   std::shared_ptr<const freespace::FreespaceUnion> Core;
+  freespace::BlockMaps Kept;     ///< the structures of single maps, for the next building
   vtkMTimeType BuildTime = 0;    ///< MTime that Core was built for
   std::recursive_mutex Building; ///< recursive for observers that ask while it is built
   bool IsBuilding = false;
@@ -48,15 +51,8 @@ namespace
 // The share of the maps, which may come from a pipeline, in building; the rest is the core.
 constexpr double MapsShare = 0.5;
 
-void GiveBounds(const Eigen::AlignedBox3d& box, double bounds[6])
-{
-  vtkMath::UninitializeBounds(bounds);
-  for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
-  {
-    bounds[2 * axis] = box.min()[axis];
-    bounds[2 * axis + 1] = box.max()[axis];
-  }
-}
+// The share of what is made of each map by itself.
+constexpr double OwnShare = 0.8;
 
 Eigen::Vector3d PointOf(vtkPoints* points, vtkIdType i)
 {
@@ -85,6 +81,10 @@ void vtkFreespaceUnion::SetMaps(vtkMultiBlockDataSet* maps)
     this->Inner->Maps = maps;
     this->Inner->Connection = nullptr;
     this->Inner->Producer = nullptr;
+    if (!maps)
+    {
+      this->Inner->Kept.Clear();
+    }
     this->Modified();
   }
 }
@@ -105,6 +105,45 @@ void vtkFreespaceUnion::SetInputDataObject(vtkDataObject* maps)
 vtkMultiBlockDataSet* vtkFreespaceUnion::GetMaps()
 {
   return this->Inner->Maps;
+}
+
+// Changes the maps by a function of them, which throws Error where it cannot.
+template <typename Change>
+bool vtkFreespaceUnion::Edit(const Change& change)
+{
+  try
+  {
+    if (this->Inner->Connection)
+    {
+      throw freespace::Error("The maps come from a pipeline, which alone can change them.");
+    }
+    const vtkSmartPointer<vtkMultiBlockDataSet> maps = this->Inner->Maps;
+    this->SetMaps(change(maps ? maps : vtkSmartPointer<vtkMultiBlockDataSet>::New()));
+    return true;
+  }
+  catch (const freespace::Error& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return false;
+  }
+}
+
+bool vtkFreespaceUnion::AddView(const std::string& name, vtkPolyData* map, int sourceIndex)
+{
+  return this->Edit(
+    [&](vtkMultiBlockDataSet* maps) { return freespace::WithView(maps, name, map, sourceIndex); });
+}
+
+bool vtkFreespaceUnion::RemoveView(const std::string& name)
+{
+  return this->Edit([&](vtkMultiBlockDataSet* maps)
+    { return this->Inner->Kept.Remove(maps, freespace::FindView(maps, name)); });
+}
+
+bool vtkFreespaceUnion::RemoveView(int index)
+{
+  return this->Edit(
+    [&](vtkMultiBlockDataSet* maps) { return this->Inner->Kept.Remove(maps, index); });
 }
 
 void vtkFreespaceUnion::SetInputConnection(vtkAlgorithmOutput* output)
@@ -190,14 +229,12 @@ void vtkFreespaceUnion::Build(const freespace::Progress& progress)
   options.region.mode = this->RegionMode == BOX_REGION ? Mode::Box
     : this->RegionMode == WHOLE_REGION                 ? Mode::All
                                                        : Mode::Automatic;
-  options.region.box =
-    Eigen::AlignedBox3d(Eigen::Vector3d(this->Region[0], this->Region[2], this->Region[4]),
-      Eigen::Vector3d(this->Region[1], this->Region[3], this->Region[5]));
-  vtkMultiBlockDataSet* maps = this->Inner->Maps;
+  options.region.box = freespace::BoxOf(this->Region);
+  options.CheckFor(this->Inner->Maps->GetNumberOfBlocks());
+  const freespace::SharedMaps& maps = this->Inner->Kept.Of(
+    this->Inner->Maps, freespace::SMPParallelFor, building.Part(0.0, OwnShare));
   this->Inner->Core = std::make_shared<freespace::FreespaceUnion>(
-    maps->GetNumberOfBlocks(),
-    [maps](std::size_t i) { return freespace::MapFromBlocks(maps, static_cast<unsigned int>(i)); },
-    options, freespace::SMPParallelFor, building);
+    maps, options, freespace::SMPParallelFor, building.Part(OwnShare, 1.0));
 }
 
 bool vtkFreespaceUnion::IsBuilt()
@@ -300,11 +337,6 @@ double vtkFreespaceUnion::FirstBlocked(const double first[3], const double last[
   return core ? freespace::FirstBlocked(*core, Eigen::Vector3d(first), Eigen::Vector3d(last)) : 0.0;
 }
 
-bool vtkFreespaceUnion::IsSegmentFree(const double first[3], const double last[3])
-{
-  return this->FirstBlocked(first, last) > 1.0;
-}
-
 bool vtkFreespaceUnion::IsSphereFree(const double center[3], double radius)
 {
   const auto core = this->GetCore();
@@ -314,9 +346,7 @@ bool vtkFreespaceUnion::IsSphereFree(const double center[3], double radius)
 bool vtkFreespaceUnion::IsBoxFree(const double bounds[6])
 {
   const auto core = this->GetCore();
-  const Eigen::AlignedBox3d box(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
-    Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
-  return core && freespace::IsBoxFree(*core, box);
+  return core && freespace::IsBoxFree(*core, freespace::BoxOf(bounds));
 }
 
 bool vtkFreespaceUnion::AreThere(vtkObject* first, vtkObject* second)
@@ -401,7 +431,7 @@ bool vtkFreespaceUnion::AreSpheresFree(
 void vtkFreespaceUnion::GetBounds(double bounds[6])
 {
   const auto core = this->GetCore();
-  GiveBounds(core ? core->Hull().Bounds() : Eigen::AlignedBox3d(), bounds);
+  freespace::GiveBounds(core ? core->Hull().Bounds() : Eigen::AlignedBox3d(), bounds);
 }
 
 void vtkFreespaceUnion::SetRegion(double x0, double x1, double y0, double y1, double z0, double z1)
@@ -423,7 +453,7 @@ void vtkFreespaceUnion::SetRegion(const double bounds[6])
 void vtkFreespaceUnion::GetRegionBounds(double bounds[6])
 {
   const auto core = this->GetCore();
-  GiveBounds(core ? core->FeatureRegion().box : Eigen::AlignedBox3d(), bounds);
+  freespace::GiveBounds(core ? core->FeatureRegion().box : Eigen::AlignedBox3d(), bounds);
 }
 
 vtkIdType vtkFreespaceUnion::GetNumberOfFeatures()

@@ -49,12 +49,14 @@
 #include "vtkImplicitFunction.h"
 
 #include <memory> // for the inner structures
+#include <string> // for the names of views
 
 class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkDoubleArray;
 class vtkMultiBlockDataSet;
 class vtkPoints;
+class vtkPolyData;
 class vtkUnsignedCharArray;
 namespace freespace
 {
@@ -78,6 +80,25 @@ public:
   vtkMultiBlockDataSet* GetMaps();
   void SetInputData(vtkMultiBlockDataSet* maps) { this->SetMaps(maps); }
   void SetInputDataObject(vtkDataObject* maps);
+  ///@}
+
+  ///@{
+  /**
+   * Adds a view to the maps, at the end, or in place of one of its name; or removes one, by its name or index. The next
+   * update makes only what depends on all of them: the structures of the other views are kept, as they are by
+   * SetMaps for blocks that are the same unmodified objects at the same place. The result is that of all maps from
+   * the beginning.
+   *
+   * GetMaps returns the new maps. They are a data set of the function's own, which shares the blocks: the one that was
+   * given does not change. SourceView of the new map holds the indices that views have then; where it was made with
+   * others, such as by itself, sourceIndex is the one that it has for the view's own points. SourceView of the other maps
+   * follows when one is removed, and is 2147483647 for points that came from it.
+   *
+   * Return false, with an error, where there is no such map, or where the maps come from a pipeline.
+   */
+  bool AddView(const std::string& name, vtkPolyData* map, int sourceIndex = -1);
+  bool RemoveView(const std::string& name);
+  bool RemoveView(int index);
   ///@}
 
   ///@{
@@ -193,7 +214,10 @@ public:
   bool IsPointFree(const double point[3]);
   int GetPointState(const double point[3]);
   double FirstBlocked(const double first[3], const double last[3]);
-  bool IsSegmentFree(const double first[3], const double last[3]);
+  bool IsSegmentFree(const double first[3], const double last[3])
+  {
+    return this->FirstBlocked(first, last) > 1.0;
+  }
   bool IsSphereFree(const double center[3], double radius);
   bool IsBoxFree(const double bounds[6]);
   ///@}
@@ -269,6 +293,8 @@ private:
   void operator=(const vtkFreespaceUnion&) = delete;
 
   struct Internals;
+  template <typename Change>
+  bool Edit(const Change& change);
   const freespace::FreespaceUnion* Built();
   void Build(const freespace::Progress& progress);
   freespace::Progress OwnProgress();

@@ -88,6 +88,29 @@ bool SpanVolume(const Points& points, double tolerance, Plane& plane)
   return offPlane(furthest(offPlane)) > tolerance;
 }
 
+bool IsBefore(const Vector3d& a, const Vector3d& b)
+{
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// The planes of facets, of whose order nothing depends: those that another hull has, too, are exactly the same there.
+std::vector<Plane> PlanesOf(std::vector<std::array<Vector3d, 3>> facets)
+{
+  for (std::array<Vector3d, 3>& facet : facets)
+  {
+    std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end(), IsBefore), facet.end());
+  }
+  std::sort(facets.begin(), facets.end(),
+    [](const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b)
+    { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), IsBefore); });
+  std::vector<Plane> planes;
+  for (const std::array<Vector3d, 3>& facet : facets)
+  {
+    planes.push_back(PlaneThrough(facet[0], facet[1], facet[2]));
+  }
+  return planes;
+}
+
 std::vector<Plane> FacetPlanes(const Points& points, Points& corners)
 {
   std::vector<Kernel::Point_3> input;
@@ -107,14 +130,14 @@ std::vector<Plane> FacetPlanes(const Points& points, Points& corners)
   {
     corners.push_back(position(v));
   }
-  std::vector<Plane> planes;
+  std::vector<std::array<Vector3d, 3>> facets;
   for (Mesh::Face_index f : mesh.faces())
   {
     const auto h = mesh.halfedge(f);
-    planes.push_back(PlaneThrough(
-      position(mesh.source(h)), position(mesh.target(h)), position(mesh.target(mesh.next(h)))));
+    facets.push_back(
+      { position(mesh.source(h)), position(mesh.target(h)), position(mesh.target(mesh.next(h))) });
   }
-  return planes;
+  return PlanesOf(std::move(facets));
 }
 
 // Points well inside the hull of a few extreme points cannot be corners of the whole hull. Leaving

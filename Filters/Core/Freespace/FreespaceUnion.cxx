@@ -2,7 +2,6 @@
 #include "Freespace/FreespaceUnion.h"
 
 #include "Common/Error.h"
-#include "Common/ParallelForWithProgress.h"
 #include "Freespace/CameraSurroundings.h"
 
 #include <algorithm>
@@ -27,22 +26,6 @@ constexpr std::size_t FewViews = 12;
 /// A greater margin is no fraction but a length by mistake: the surface would be lost in the hull's
 /// box.
 constexpr double MostMargin = 10.0;
-
-void CheckTriangles(const DisparityMap& map)
-{
-  const int n = static_cast<int>(map.points.size());
-  for (const auto& triangle : map.triangles)
-  {
-    for (int corner : triangle)
-    {
-      if (corner < 0 || corner >= n)
-      {
-        throw Error("The map " + map.name + " has a triangle that names point " +
-          std::to_string(corner) + " of " + std::to_string(n) + ".");
-      }
-    }
-  }
-}
 
 VoteRule RuleOf(const FreespaceUnionOptions& options, std::size_t views)
 {
@@ -89,6 +72,22 @@ void FreespaceUnionOptions::Check() const
   }
 }
 
+void FreespaceUnionOptions::CheckFor(std::size_t views) const
+{
+  this->Check();
+  if (views > MostViews)
+  {
+    throw Error("There are " + std::to_string(views) + " views, at most " +
+      std::to_string(MostViews) + " can be united.");
+  }
+  // No point inside the hull could be free. Without any views everything is free anyway.
+  if (views > 0 && this->minimumViews > static_cast<int>(views))
+  {
+    throw Error("The minimum number of views is " + std::to_string(this->minimumViews) +
+      ", but there are only " + std::to_string(views) + " views.");
+  }
+}
+
 FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
   const FreespaceUnionOptions& options, const ParallelFor& parallelFor, const Progress& progress)
   : FreespaceUnion(
@@ -98,32 +97,28 @@ FreespaceUnion::FreespaceUnion(const std::vector<DisparityMap>& maps,
 
 FreespaceUnion::FreespaceUnion(std::size_t count, const MapSource& mapOf,
   const FreespaceUnionOptions& options, const ParallelFor& parallelFor, const Progress& progress)
-  : Options(options)
-  , NumberOfMaps(count)
-  , Views(count)
+  : FreespaceUnion((options.CheckFor(count),
+                     CompleteMaps(SharedMaps(count), mapOf, parallelFor, progress.Part(0.0, 0.8))),
+      options, parallelFor, progress.Part(0.8, 1.0))
 {
-  options.Check();
-  this->CheckCount();
-  this->Votes = RuleOf(options, count);
-  std::vector<ViewFeatures> features(count);
-  std::mutex asking;
-  ParallelForWithProgress(count, parallelFor, progress.Part(0.0, 0.8),
-    [&](std::size_t i, const CancellationFlag& stop)
-    {
-      const DisparityMap map = [&]
-      {
-        const std::lock_guard<std::mutex> lock(asking);
-        ThrowIfCancelled(stop);
-        return mapOf(i);
-      }();
-      CheckTriangles(map);
-      features[i] = FeaturesOfMap(map, i);
-      this->Views[i] = std::make_shared<const ViewFreespace>(map, stop);
-    });
+}
+
+FreespaceUnion::FreespaceUnion(const SharedMaps& maps, const FreespaceUnionOptions& options,
+  const ParallelFor& parallelFor, const Progress& progress)
+  : Options(options)
+  , Maps(maps)
+{
+  options.CheckFor(maps.size());
+  this->Votes = RuleOf(options, maps.size());
+  std::vector<ViewFeatures> features;
+  for (const std::shared_ptr<const MapFreespace>& map : maps)
+  {
+    features.push_back(map->features);
+    this->Views.emplace_back(map, &map->freespace);
+  }
   const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
   this->Region = MakeRegionHull(features, options.region, options.resolution,
-    isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor,
-    progress.Part(0.8, 1.0));
+    isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor, progress);
   this->AddSilhouettes(features);
   this->AddSurroundings(features);
   this->FindMargins(features);
@@ -173,23 +168,6 @@ void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
       this->Views.push_back(freespace);
       this->AddedView.push_back(map.sourceView.front());
     }
-  }
-}
-
-void FreespaceUnion::CheckCount() const
-{
-  const std::size_t count = this->Views.size();
-  const int minimum = this->Options.minimumViews;
-  if (count > MostViews)
-  {
-    throw Error("There are " + std::to_string(count) + " views, at most " +
-      std::to_string(MostViews) + " can be united.");
-  }
-  // No point inside the hull could be free. Without any views everything is free anyway.
-  if (count > 0 && minimum > static_cast<int>(count))
-  {
-    throw Error("The minimum number of views is " + std::to_string(minimum) +
-      ", but there are only " + std::to_string(count) + " views.");
   }
 }
 

@@ -5,12 +5,11 @@
 #include "Common/ParallelFor.h"
 #include "Common/Progress.h"
 #include "Contour/Lattice/ContourField.h"
-#include "Freespace/RegionHull.h"
+#include "Freespace/MapFreespace.h"
 #include "Freespace/ViewOctree.h"
 #include "Freespace/Votes/ViewVotes.h"
 #include "ViewFreespace/ViewFreespace.h"
 
-#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -51,6 +50,8 @@ struct FreespaceUnionOptions
 
   /// Throws Error when a field is out of its range.
   void Check() const;
+  /// The same, and when it does not fit the number of views, or these are too many.
+  void CheckFor(std::size_t views) const;
 };
 
 /// Phi' of section 2.2: the union of the views' free spaces and of the outside of the convex hull
@@ -70,11 +71,14 @@ public:
   FreespaceUnion(const std::vector<DisparityMap>& maps, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
 
-  /// The same for maps that need not all be in memory: each is requested once, used and released.
-  /// The function is called from several threads, one call at a time.
-  using MapSource = std::function<DisparityMap(std::size_t)>;
+  /// The same for maps that need not all be in memory.
   FreespaceUnion(std::size_t count, const MapSource& mapOf, const FreespaceUnionOptions& options,
     const ParallelFor& parallelFor = SerialFor, const Progress& progress = {});
+
+  /// The same for maps whose own structures are there, such as some of another union's: only what depends on all of
+  /// them is made, the region, the hull and the surroundings of the cameras.
+  FreespaceUnion(const SharedMaps& maps, const FreespaceUnionOptions& options,
+    const ParallelFor& parallelFor, const Progress& progress);
 
   /// Builds the octree of the views, which otherwise the first call of IsFree (if there are many
   /// views) or of ScopeAround builds. Throws Aborted when the progress asks to stop.
@@ -127,7 +131,8 @@ public:
   {
     return this->Region.features;
   } ///< in the region
-  std::size_t NumberOfViews() const { return this->NumberOfMaps; }
+  std::size_t NumberOfViews() const { return this->Maps.size(); }
+  const SharedMaps& GetMaps() const { return this->Maps; }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
 
 private:
@@ -143,7 +148,6 @@ private:
     int view, const Eigen::Vector3d& crossing, const Eigen::Vector3d& towardsFree) const;
   Winner Evaluate(const Eigen::Vector3d& point) const;
 
-  void CheckCount() const;
   bool IsVotedFree(
     const Eigen::Vector3d& point, VoteCount votes, const int* begin, const int* end) const;
   void FirstFree(const Eigen::Vector3d& matter, const Eigen::Vector3d& free,
@@ -162,7 +166,7 @@ private:
 
   FreespaceUnionOptions Options;
   VoteRule Votes;
-  std::size_t NumberOfMaps;
+  SharedMaps Maps;
   /// Of the maps, then those that count more than once: silhouettes and the surroundings of cameras.
   std::vector<std::shared_ptr<const ViewFreespace>> Views;
   std::vector<int> AllViews;   ///< their indices

@@ -83,7 +83,7 @@ SurfaceLabel FreespaceUnion::LabelOfView(
 // Nobody saw the surroundings of a camera: their border is a wall of its view.
 SurfaceLabel FreespaceUnion::OfMaps(SurfaceLabel label) const
 {
-  const int maps = static_cast<int>(this->NumberOfMaps);
+  const int maps = static_cast<int>(this->Maps.size());
   if (label.view >= maps)
   {
     label.view = this->AddedView[label.view - maps];
