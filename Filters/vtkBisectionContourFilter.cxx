@@ -11,7 +11,7 @@
 #include "Execution/PieceRequest.h"
 #include "Execution/SMPParallelFor.h"
 #include "Execution/ThreadSafeFunction.h"
-#include "Freespace/FreespaceUnion.h"
+#include "Freespace/Changes/UnionChange.h"
 #include "Mesh/FeatureGrid.h"
 #include "vtkFreespaceUnion.h"
 
@@ -40,6 +40,13 @@
 #include <memory>
 
 vtkStandardNewMacro(vtkBisectionContourFilter);
+
+/// The last contour of a union, for the next one.
+struct vtkBisectionContourFilter::Memory
+{
+  freespace::KeptContour Contour;
+  std::shared_ptr<const freespace::FreespaceUnion> Union;
+};
 
 namespace
 {
@@ -197,6 +204,7 @@ void MarkSupported(vtkPolyData* output, const freespace::FreespaceUnion& core, d
 }
 
 vtkBisectionContourFilter::vtkBisectionContourFilter()
+  : Last(new Memory)
 {
   this->SetNumberOfInputPorts(0);
   this->SetCellsToAutomatic();
@@ -381,6 +389,29 @@ double vtkBisectionContourFilter::EstimateMemory()
   }
 }
 
+template <typename Allocate>
+void vtkBisectionContourFilter::Contour(
+  const Task& task, const Allocate& allocate, const freespace::Progress& progress)
+{
+  Memory last = std::move(*this->Last); // which is lost with an exception
+  *this->Last = {};
+  if (!this->Incremental || !task.isDirect || task.options.pieces > 1)
+  {
+    last = {};
+    freespace::BisectionContour(
+      task.Field(), task.bounds, task.options, allocate, progress, freespace::SMPParallelFor);
+    return;
+  }
+  std::unique_ptr<freespace::UnionChange> change;
+  if (last.Union)
+  {
+    change = std::make_unique<freespace::UnionChange>(last.Union, task.core);
+  }
+  freespace::BisectionContour(task.Field(), task.bounds, task.options, allocate, last.Contour,
+    change.get(), progress, freespace::SMPParallelFor);
+  *this->Last = { std::move(last.Contour), task.core };
+}
+
 int vtkBisectionContourFilter::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -414,15 +445,11 @@ int vtkBisectionContourFilter::RequestData(
       }
       return AllocateOutput(output, corners, size, isSingle, task.isDirect);
     };
-    freespace::BisectionContour(task.Field(), task.bounds, task.options, allocate,
-      progress.Part(built, 1.0), freespace::SMPParallelFor);
+    this->Contour(task, allocate, progress.Part(built, 1.0));
     SetTriangles(output, corners);
     if (task.isDirect)
     {
       MarkSupported(output, *task.core, task.bounds.sizes().maxCoeff() / task.options.cells);
-    }
-    if (task.isDirect)
-    {
       TellLattice(output, *task.core, task.options.cells);
     }
     this->CrumbTriangles = 0;
@@ -457,6 +484,7 @@ void vtkBisectionContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n";
   os << indent << "Cells: " << this->Cells << "\n";
+  os << indent << "Incremental: " << this->Incremental << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Clearance: " << this->Clearance << "\n";
   os << indent << "ExactCrossings: " << this->ExactCrossings << "\n";

@@ -53,6 +53,8 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for the function
 
+#include <memory> // for what is kept
+
 class vtkImplicitFunction;
 namespace freespace
 {
@@ -173,6 +175,20 @@ public:
 
   ///@{
   /**
+   * Whether the blocks of the lattice are kept for the next update, which computes only those again that a change of the
+   * function reaches: views that were added, removed or replaced leave what they do not see, see
+   * vtkFreespaceUnion::AddView. The output is exactly that without it. All blocks are computed again when the lattice
+   * changes (Bounds and Cells that are set keep it), with other settings or another number of deciding views; those at
+   * the hull where its planes change (a HullMargin that is set keeps those that the features leave). Pieces are not kept.
+   * Takes about half as much memory as the output. For a vtkFreespaceUnion without a Transform. Default off.
+   */
+  vtkSetMacro(Incremental, vtkTypeBool);
+  vtkGetMacro(Incremental, vtkTypeBool);
+  vtkBooleanMacro(Incremental, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Limit of the memory for the output (or the requested piece) and its computation, in MiB; 0 is no limit.
    * Exceeding it is an error that names both numbers, reported in advance for a vtkFreespaceUnion, and
    * otherwise as soon as it is known. Default 0.
@@ -217,13 +233,19 @@ protected:
   vtkIdType CrumbTriangles = 0;
   vtkTypeBool ObservedOnly;
   vtkTypeBool ComputeNormals = false;
+  vtkTypeBool Incremental = false;
   double MemoryLimit;
 
 private:
   struct Task;
+  struct Memory;
+  template <typename Allocate>
+  void Contour(const Task& task, const Allocate& allocate, const freespace::Progress& progress);
   bool Prepare(Task& task, const freespace::Progress& progress);
   void ChooseCells(Task& task, const freespace::Progress& progress);
   double ShareOfBuilding();
+
+  std::unique_ptr<Memory> Last;
 
   vtkBisectionContourFilter(const vtkBisectionContourFilter&) = delete;
   void operator=(const vtkBisectionContourFilter&) = delete;

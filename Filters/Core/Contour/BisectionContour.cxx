@@ -43,6 +43,14 @@ public:
   {
   }
 
+  /// Before Run: takes blocks of an earlier contour over. After it, they are all there for the next one.
+  void TakeOver(std::vector<Region> before, const FieldChange& change)
+  {
+    this->Parts.TakeOver(std::move(before), change);
+  }
+  void KeepBlocks() { this->AreBlocksKept = true; }
+  std::vector<Region> TakeRegions() { return std::move(this->Parts.regions); }
+
   void Run(const AllocateContour& allocate, const Progress& progress,
     const ParallelFor& parallelFor, bool isThreadSafe)
   {
@@ -154,7 +162,7 @@ private:
   void ReleaseLayer(std::size_t layer)
   {
     for (std::size_t r = this->Blocks.layers[layer].region;
-         r < this->Blocks.layers[layer + 1].region; ++r)
+         r < this->Blocks.layers[layer + 1].region && !this->AreBlocksKept; ++r)
     {
       this->Parts.regions[r].blocks = {};
     }
@@ -237,8 +245,32 @@ private:
   const ContourOptions Options;
   ContourOctree Parts;
   BlockMesh Blocks;
+  bool AreBlocksKept = false;
   std::size_t Vertices = 0, OwnVertices = 0, Triangles = 0;
 };
+
+}
+
+namespace
+{
+
+/// False, with no mesh, for empty bounds. Throws Error where options or bounds are not valid.
+bool IsThereLattice(const AlignedBox3d& bounds, const ContourOptions& options,
+  const AllocateContour& allocate, const Progress& progress)
+{
+  options.Check();
+  progress(0.0);
+  if (bounds.isEmpty())
+  {
+    allocate({});
+    return false;
+  }
+  if (!bounds.min().allFinite() || !bounds.max().allFinite() || !(bounds.sizes().maxCoeff() > 0))
+  {
+    throw Error("The bounds of the contour are not a finite box with an extent.");
+  }
+  return true;
+}
 
 }
 
@@ -246,19 +278,35 @@ void BisectionContour(const ContourField& field, const AlignedBox3d& bounds,
   const ContourOptions& options, const AllocateContour& allocate, const Progress& progress,
   const ParallelFor& parallelFor)
 {
-  options.Check();
-  progress(0.0);
-  if (bounds.isEmpty())
+  if (IsThereLattice(bounds, options, allocate, progress))
   {
-    allocate({});
+    Contour(field, bounds, options).Run(allocate, progress, parallelFor, field.IsThreadSafe());
+    ReturnFreeMemory();
+  }
+}
+
+void BisectionContour(const ContourField& field, const AlignedBox3d& bounds,
+  const ContourOptions& options, const AllocateContour& allocate, KeptContour& kept,
+  const FieldChange* change, const Progress& progress, const ParallelFor& parallelFor)
+{
+  KeptContour before;
+  std::swap(before, kept);
+  if (!IsThereLattice(bounds, options, allocate, progress))
+  {
     return;
   }
-  if (!bounds.min().allFinite() || !bounds.max().allFinite() || !(bounds.sizes().maxCoeff() > 0))
+  Contour contour(field, bounds, options);
+  if (change && before.Fits(bounds, options))
   {
-    throw Error("The bounds of the contour are not a finite box with an extent.");
+    contour.TakeOver(std::move(before.regions), *change);
   }
-  Contour(field, bounds, options).Run(allocate, progress, parallelFor, field.IsThreadSafe());
-  ReturnFreeMemory();
+  before = {};
+  contour.KeepBlocks();
+  contour.Run(allocate, progress, parallelFor, field.IsThreadSafe());
+  if (options.pieces == 1)
+  {
+    kept = { bounds, options, contour.TakeRegions() };
+  }
 }
 
 ContourMesh BisectionContour(const ContourField& field, const AlignedBox3d& bounds,

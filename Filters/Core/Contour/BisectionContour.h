@@ -4,6 +4,7 @@
 
 #include "Common/ParallelFor.h"
 #include "Common/Progress.h"
+#include "Contour/KeptContour.h"
 #include "Contour/Lattice/ContourField.h"
 #include "Contour/Lattice/ContourMesh.h"
 #include "Contour/Lattice/ContourOptions.h"
@@ -44,6 +45,14 @@ namespace freespace
 /// the progress stops it; the output is then undefined.
 void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const AllocateContour& allocate, const Progress& progress = {},
+  const ParallelFor& parallelFor = SerialFor);
+
+/// The same, which keeps its blocks for the next contour and takes those of the last one over wherever a change since
+/// then leaves them; null where the change is not known. The mesh is the same. Nothing is kept of a piece, nor after an
+/// exception.
+void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
+  const ContourOptions& options, const AllocateContour& allocate, KeptContour& kept,
+  const FieldChange* change, const Progress& progress = {},
   const ParallelFor& parallelFor = SerialFor);
 
 ContourMesh BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,

@@ -152,6 +152,7 @@ void FreespaceUnion::AddSilhouettes(const std::vector<ViewFeatures>& features)
     {
       this->Views.push_back(this->Views[v]);
       this->AddedView.push_back(static_cast<int>(v));
+      this->AddedCorners.emplace_back();
     }
   }
 }
@@ -167,8 +168,27 @@ void FreespaceUnion::AddSurroundings(const std::vector<ViewFeatures>& features)
     {
       this->Views.push_back(freespace);
       this->AddedView.push_back(map.sourceView.front());
+      this->AddedCorners.push_back(map.points);
     }
   }
+}
+
+bool FreespaceUnion::HasSameView(int view, const FreespaceUnion& other, int otherView) const
+{
+  const auto cornersOf = [](const FreespaceUnion& phi, int index)
+  {
+    const std::size_t i = static_cast<std::size_t>(index), maps = phi.Maps.size();
+    return i < maps ? std::vector<Vector3d>() : phi.AddedCorners[i - maps];
+  };
+  const auto &own = this->Views[static_cast<std::size_t>(view)],
+             &its = other.Views[static_cast<std::size_t>(otherView)];
+  if (own == its)
+  {
+    return true;
+  }
+  const std::vector<Vector3d> corners = cornersOf(*this, view);
+  return !corners.empty() && own->Center() == its->Center() &&
+    corners == cornersOf(other, otherView);
 }
 
 FieldScope FreespaceUnion::Root() const

@@ -134,6 +134,14 @@ public:
   std::size_t NumberOfViews() const { return this->Maps.size(); }
   const SharedMaps& GetMaps() const { return this->Maps; }
   const ViewFreespace& ViewAt(std::size_t i) const { return *this->Views[i]; }
+  /// The map that labels name for a view of a scope: the view itself, or that of a camera with surroundings.
+  int MapOf(int view) const
+  {
+    const int added = view - static_cast<int>(this->Maps.size());
+    return added < 0 ? view : this->AddedView[static_cast<std::size_t>(added)];
+  }
+  /// Whether views of two unions are one, or equal surroundings of a camera.
+  bool HasSameView(int view, const FreespaceUnion& other, int otherView) const;
 
 private:
   struct Winner
@@ -172,6 +180,7 @@ private:
   std::vector<int> AllViews;   ///< their indices
   std::vector<double> Margins; ///< of VoteOn, per view
   std::vector<int> AddedView;  ///< of those after the maps': the index of their view
+  std::vector<std::vector<Eigen::Vector3d>> AddedCorners; ///< of these; empty for silhouettes
   RegionHull Region;
   mutable std::once_flag FreeIsIndexed, ClaimsAreIndexed; ///< both are built when first needed
   mutable std::unique_ptr<ViewOctree> Free, Claims;

@@ -55,6 +55,16 @@ public:
   SurfaceKind Kind(std::size_t vertex) const { return SurfaceKind(this->Labels[vertex] & 3); }
   int View(std::size_t vertex) const { return this->Labels[vertex] >> 2; }
 
+  /// Gives the views of the labels other numbers.
+  template <typename ViewNow>
+  void RenumberViews(const ViewNow& viewNow)
+  {
+    for (std::int16_t& label : this->Labels)
+    {
+      label = static_cast<std::int16_t>(viewNow(label >> 2) * 4 + (label & 3));
+    }
+  }
+
   LatticeIndex at; ///< of the block, in blocks
 
   // Vertices, in the order of their keys.

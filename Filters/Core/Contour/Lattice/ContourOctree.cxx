@@ -24,25 +24,39 @@ constexpr std::size_t RegionsAtATime = 16;
 constexpr std::size_t RangesAtATime = 1024;
 
 /// Descends the octree of boxes below a range to those of the wanted size that are mixed. Looks at
-/// those only that are wanted.
+/// those only that are wanted, which also narrows the scope of a change.
 template <typename Want, typename Visit>
 void Descend(const BoundedField& field, const ContourLattice& lattice, const CellRange& range,
-  int size, const FieldScope& parent, Want&& isWanted, Visit&& visit)
+  int size, const FieldScope& parent, const ChangeScope& parentChange, Want&& isWanted,
+  Visit&& visit)
 {
   FieldScope scope;
-  if (!isWanted(range) || field.Classify(range.Box(lattice), parent, scope) != BoxContent::Mixed)
+  ChangeScope change;
+  if (!isWanted(range, parentChange, change) ||
+    field.Classify(range.Box(lattice), parent, scope) != BoxContent::Mixed)
   {
     return;
   }
   if (range.Longest() <= size)
   {
-    visit(range, scope);
+    visit(range, scope, change);
     return;
   }
   for (const CellRange& part : range.Parts(size))
   {
-    Descend(field, lattice, part, size, scope, isWanted, visit);
+    Descend(field, lattice, part, size, scope, change, isWanted, visit);
   }
+}
+
+/// Whether a box of cells lies in another one.
+bool Contains(const CellRange& outer, const LatticeIndex& low)
+{
+  bool isIn = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isIn = isIn && low[axis] >= outer.low[axis] && low[axis] < outer.high[axis];
+  }
+  return isIn;
 }
 
 }
@@ -74,6 +88,51 @@ void ContourOctree::Find(
   this->FindBlocks(progress.Part(0.0625, 1.0), parallelFor, isThreadSafe);
 }
 
+void ContourOctree::TakeOver(std::vector<Region> before, const FieldChange& change)
+{
+  this->Change = &change;
+  for (Region& region : before)
+  {
+    this->Before.emplace(LatticeKey(region.range.low), std::move(region));
+  }
+}
+
+void ContourOctree::TakeRegions(const CellRange& range)
+{
+  if (range.Longest() > RegionSize)
+  {
+    for (const CellRange& part : range.Parts(RegionSize))
+    {
+      this->TakeRegions(part);
+    }
+    return;
+  }
+  const auto before = this->Before.find(LatticeKey(range.low));
+  if (before != this->Before.end())
+  {
+    Region& region = before->second;
+    this->regions.push_back({ range, {}, true, 0, {}, std::move(region.blocks), {} });
+    this->regions.back().isLeft = true;
+  }
+}
+
+void ContourOctree::TakeBlocks(const CellRange& range, Region& region) const
+{
+  for (ContourBlock& block : region.before)
+  {
+    LatticeIndex low = block.at;
+    for (int& index : low)
+    {
+      index *= ContourBlock::Size;
+    }
+    if (Contains(range, low))
+    {
+      block.RenumberViews([this](int view) { return this->Change->ViewNow(view); });
+      region.blocks.push_back(std::move(block));
+    }
+  }
+}
+
 void ContourOctree::CheckEstimate(const Progress& progress) const
 {
   if (this->Options.memoryLimit > 0)
@@ -90,17 +149,30 @@ void ContourOctree::FindRegions(const Progress& progress)
   std::size_t asked = 0;
   Descend(
     this->field, this->lattice, all, RegionSize, this->field.Root(),
-    [&](const CellRange&)
+    this->Change ? this->Change->Root() : ChangeScope(),
+    [&](const CellRange& range, const ChangeScope& parent, ChangeScope& change)
     {
       if (asked++ % RangesAtATime == 0)
       {
         progress(0.0);
       }
+      if (this->Change && this->Change->Leaves(range.Box(this->lattice), parent, change))
+      {
+        this->TakeRegions(range);
+        return false;
+      }
       return true;
     },
-    [&](const CellRange& range, FieldScope& scope) {
-      this->regions.push_back({ range, std::move(scope), true, 0, {} });
+    [&](const CellRange& range, FieldScope& scope, ChangeScope& change)
+    {
+      this->regions.push_back({ range, std::move(scope), true, 0, {}, {}, std::move(change) });
+      const auto before = this->Before.find(LatticeKey(range.low));
+      if (before != this->Before.end())
+      {
+        this->regions.back().before = std::move(before->second.blocks);
+      }
     });
+  this->Before.clear();
   // Many regions are few triangles, unless the surface is rough.
   const double worst = 5.0 * RegionSize * RegionSize * RegionSize * this->regions.size();
   if (this->Options.cells <= QuicklyDescended &&
@@ -198,14 +270,25 @@ void ContourOctree::FindBlocks(
 
 void ContourOctree::RunRegion(Region& region, const Progress& progress, double fraction) const
 {
+  if (region.isLeft)
+  {
+    this->TakeBlocks(region.range, region);
+    region.before = {};
+    return;
+  }
   Descend(
-    this->field, this->lattice, region.range, ContourBlock::Size, region.scope,
-    [&](const CellRange& range)
+    this->field, this->lattice, region.range, ContourBlock::Size, region.scope, region.change,
+    [&](const CellRange& range, const ChangeScope& parent, ChangeScope& change)
     {
+      if (this->Change && this->Change->Leaves(range.Box(this->lattice), parent, change))
+      {
+        this->TakeBlocks(range, region);
+        return false;
+      }
       return region.isOwn || range.Longest() > ContourBlock::Size ||
         this->IsBesideOwn(range.low, ContourBlock::Size);
     },
-    [&](const CellRange& range, const FieldScope& scope)
+    [&](const CellRange& range, const FieldScope& scope, const ChangeScope&)
     {
       progress(fraction);
       ContourBlock block(this->field, this->lattice, this->Crossing, range, scope);
@@ -216,6 +299,8 @@ void ContourOctree::RunRegion(Region& region, const Progress& progress, double f
     });
   region.blocks.shrink_to_fit();
   region.scope = {};
+  region.before = {};
+  region.change = {};
 }
 
 }

@@ -7,7 +7,9 @@
 #include "Contour/Lattice/ContourBlock.h"
 #include "Contour/Lattice/ContourField.h"
 #include "Contour/Lattice/ContourOptions.h"
+#include "Contour/Lattice/FieldChange.h"
 
+#include <unordered_map>
 #include <unordered_set>
 
 namespace freespace
@@ -21,6 +23,10 @@ struct Region
   bool isOwn; ///< of this piece; otherwise only its vertices are wanted
   int layer;
   std::vector<ContourBlock> blocks;
+  std::vector<ContourBlock>
+    before = {};           ///< of an earlier contour, to be taken over where nothing changed
+  ChangeScope change = {}; ///< since then
+  bool isLeft = false;     ///< nothing changed in all of it
 };
 
 /// One number for a place in a lattice, none of whose indices is negative.
@@ -39,6 +45,10 @@ public:
   /// piece's triangles need. Throws Error when the surface will not fit into the memory limit.
   void Find(const Progress& progress, const ParallelFor& parallelFor, bool isThreadSafe);
 
+  /// Before Find: takes the blocks of an earlier contour of the whole, on the same lattice and with the same options,
+  /// over wherever the change since then leaves them.
+  void TakeOver(std::vector<Region> before, const FieldChange& change);
+
   const BoundedField field;
   const ContourLattice lattice;
   const bool isSingle;         ///< points in single precision suffice
@@ -53,6 +63,12 @@ private:
 
   void KeepPiece();
 
+  /// Appends the regions of the earlier contour in a range, in which nothing changed.
+  void TakeRegions(const CellRange& range);
+
+  /// Appends the blocks of a region's earlier contour in a range, in which nothing changed.
+  void TakeBlocks(const CellRange& range, Region& region) const;
+
   /// Whether a box of cells touches a region of this piece such that this needs vertices of it.
   bool IsBesideOwn(const LatticeIndex& low, int size) const;
 
@@ -63,6 +79,8 @@ private:
   const ContourOptions Options;
   const CrossingOptions Crossing;
   std::unordered_set<std::uint64_t> OwnRegions; ///< of this piece, when it is not the whole
+  const FieldChange* Change = nullptr;          ///< since the earlier contour; null: there is none
+  std::unordered_map<std::uint64_t, Region> Before; ///< its regions by their first cells
 };
 
 }
