@@ -53,7 +53,12 @@ const Vector3d& Extreme(const Points& points, const Vector3d& direction)
 
 double Support(const Points& points, const Vector3d& direction)
 {
-  return direction.dot(Extreme(points, direction));
+  double greatest = -HUGE_VAL;
+  for (const Vector3d& point : points)
+  {
+    greatest = std::max(greatest, direction.dot(point));
+  }
+  return greatest;
 }
 
 Plane PlaneThrough(const Vector3d& a, const Vector3d& b, const Vector3d& c)

@@ -147,6 +147,10 @@ void SharpVertexJoiner::FindFaceLinks(const Progress& progress, const ParallelFo
   ChoiceIndex index;
   for (BlockPlace& place : this->Blocks.places)
   {
+    if (place.sharp.empty())
+    {
+      continue;
+    }
     this->Blocks.ForEachTriangle(place,
       [&](std::size_t, const std::array<BlockVertex, 3>& corners, bool isSharp, int face)
       {
