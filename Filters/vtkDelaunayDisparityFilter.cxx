@@ -73,8 +73,8 @@ int vtkDelaunayDisparityFilter::RequestData(
     {
       names.push_back(view.name);
     }
-    freespace::MakeDisparityMaps(std::move(views), this->Options(), freespace::SMPParallelFor,
-      freespace::AlgorithmProgress(this),
+    freespace::MakeDisparityMaps(std::move(views), this->Options(),
+      { freespace::SMPParallelFor, this->Shared }, freespace::AlgorithmProgress(this),
       [&blocks](std::size_t i, const freespace::DisparityMap& map)
       { blocks[i] = freespace::BlockFromMap(map); });
     for (std::size_t i = 0; i < blocks.size(); ++i)

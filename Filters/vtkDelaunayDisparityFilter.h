@@ -61,6 +61,7 @@
 namespace freespace
 {
 struct DisparityMapOptions;
+class SharedWork;
 }
 
 class VTKFREESPACEFILTERS_EXPORT vtkDelaunayDisparityFilter : public vtkOutlierFilter
@@ -192,6 +193,12 @@ public:
   vtkGetMacro(GreatestDepthRatio, double);
   ///@}
 
+  /**
+   * What shares the work out among several processes, each of which updates a filter like this one with the same
+   * input, within its Together; all get the same output. For C++; it must outlive the update. Default: none.
+   */
+  void SetSharedWork(freespace::SharedWork* work) { this->Shared = work; }
+
 protected:
   vtkDelaunayDisparityFilter();
   ~vtkDelaunayDisparityFilter() override = default;
@@ -214,6 +221,8 @@ protected:
 
 private:
   freespace::DisparityMapOptions Options() const;
+
+  freespace::SharedWork* Shared = nullptr;
 
   vtkDelaunayDisparityFilter(const vtkDelaunayDisparityFilter&) = delete;
   void operator=(const vtkDelaunayDisparityFilter&) = delete;

@@ -112,7 +112,8 @@ long long TimeOfFiles(const std::string& scene, const std::vector<std::string>& 
 // The cameras of the scene's images, refined by its edges if requested; and a line about it.
 std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene& checked,
   freespace::EdgeStore& edges, const freespace::MatcherOptions& matching, int mode,
-  const freespace::Progress& progress, std::string& summary)
+  const freespace::ParallelFor& parallelFor, const freespace::Progress& progress,
+  std::string& summary)
 {
   constexpr std::size_t small = 200; // images
   const freespace::SparseModel& model = checked.model;
@@ -126,9 +127,8 @@ std::vector<freespace::CalibratedImage> CamerasOf(const freespace::CheckedScene&
           : ", because there are more than " + std::to_string(small) + " images");
     return freespace::CalibratedImages(model);
   }
-  const freespace::CameraRefinement refined =
-    freespace::RefineCameras(checked.given, model, edges, matching,
-      freespace::CameraRefinementOptions(), freespace::SMPParallelFor, progress, checked.tracks);
+  const freespace::CameraRefinement refined = freespace::RefineCameras(checked.given, model, edges,
+    matching, freespace::CameraRefinementOptions(), parallelFor, progress, checked.tracks);
   std::ostringstream line;
   line.precision(2);
   if (refined.isRefined)
@@ -335,11 +335,12 @@ int vtkEdgeStereoReader::RequestData(
     const SingleThreadedOpenCV guard;
     freespace::EdgeStore edges(given, options.edges);
     const freespace::Progress progress = freespace::AlgorithmProgress(this);
+    const freespace::ParallelFor parallelFor(freespace::SMPParallelFor, this->Shared);
     freespace::CheckedScene checked =
       freespace::CheckScene(given, std::move(input.model), edges, options.matching,
         this->ClusterProposal ? freespace::ClusterOptionsOf(this->ClusterProposal)
                               : freespace::ClusterProposalOptions(),
-        this->CheckImages, freespace::SMPParallelFor, progress.Part(0, 0.2));
+        this->CheckImages, parallelFor, progress.Part(0, 0.2));
     freespace::Scene& scene = checked.scene;
     this->ClusterSummary = checked.choice;
     this->FilesRead = FilesOf(scene);
@@ -350,14 +351,13 @@ int vtkEdgeStereoReader::RequestData(
       const auto others = freespace::ClustersOfEveryImage(scene.clusters);
       scene.clusters.insert(scene.clusters.end(), others.begin(), others.end());
     }
-    const std::vector<freespace::CalibratedImage> images = CamerasOf(checked, edges,
-      options.matching, this->RefineCameras, progress.Part(0.2, 0.6), this->CameraSummary);
-    const std::vector<freespace::EdgeView> views =
-      freespace::FindSceneFeatures(scene, images, edges, needed, options, freespace::SMPParallelFor,
-        progress.Part(0.6, 0.95), checked.warnings);
+    const std::vector<freespace::CalibratedImage> images =
+      CamerasOf(checked, edges, options.matching, this->RefineCameras, parallelFor,
+        progress.Part(0.2, 0.6), this->CameraSummary);
+    const std::vector<freespace::EdgeView> views = freespace::FindSceneFeatures(scene, images,
+      edges, needed, options, parallelFor, progress.Part(0.6, 0.95), checked.warnings);
     const std::vector<freespace::DisparityMap> silhouettes = this->MaskIsFree
-      ? freespace::SilhouetteMaps(
-          scene, images, views, freespace::SMPParallelFor, progress.Part(0.95, 1))
+      ? freespace::SilhouetteMaps(scene, images, views, parallelFor, progress.Part(0.95, 1))
       : std::vector<freespace::DisparityMap>();
     for (const std::string& warning : checked.warnings)
     {

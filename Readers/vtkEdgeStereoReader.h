@@ -82,6 +82,7 @@ namespace freespace
 {
 struct EdgeStereoOptions;
 struct MemoryScene;
+class SharedWork;
 }
 
 class VTKFREESPACEREADERS_EXPORT vtkEdgeStereoReader : public vtkMultiBlockDataSetAlgorithm
@@ -258,6 +259,12 @@ public:
   ///@}
 
   /**
+   * What shares the work out among several processes, each of which updates a reader like this one with the same
+   * input, within its Together; all get the same output. For C++; it must outlive the update. Default: none.
+   */
+  void SetSharedWork(freespace::SharedWork* work) { this->Shared = work; }
+
+  /**
    * After Update(): in one line, how many of the images were chosen to be references and which have no
    * neighbours, see vtkClusterProposal::GetSummary. Empty when the scene.json names its clusters.
    */
@@ -319,6 +326,7 @@ private:
   void operator=(const vtkEdgeStereoReader&) = delete;
 
   vtkSmartPointer<vtkClusterProposal> ClusterProposal;
+  freespace::SharedWork* Shared = nullptr;
   std::string ClusterSummary;
   std::string ImageSummary;
   std::string CameraSummary;

@@ -2,8 +2,9 @@
 #include "Disparity/DelaunayDisparity.h"
 
 #include "Common/Error.h"
-#include "Common/ParallelForWithProgress.h"
 #include "Disparity/DisparitySurface.h"
+#include "Sharing/MakeAll.h"
+#include "Sharing/ViewBytes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,14 +159,10 @@ std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,
   const std::vector<std::vector<int>> partners = options.minimumDisparity
     ? PartnerViews(views, options.partners)
     : std::vector<std::vector<int>>(views.size());
-  std::vector<DisparityMap> maps(views.size());
-  ParallelForWithProgress(work, parallelFor, progress,
-    [&](std::size_t v, const CancellationFlag& stop)
-    {
-      maps[v] =
-        TriangulateOne(views[v], static_cast<int>(v), { cloud, partners[v] }, options, stop);
+  return MakeAll<DisparityMap>(work, parallelFor, progress,
+    [&](std::size_t v, const CancellationFlag& stop) {
+      return TriangulateOne(views[v], static_cast<int>(v), { cloud, partners[v] }, options, stop);
     });
-  return maps;
 }
 
 std::vector<DisparityMap> TriangulateViews(const std::vector<View>& views,

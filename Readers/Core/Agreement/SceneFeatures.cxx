@@ -2,7 +2,8 @@
 #include "Agreement/SceneFeatures.h"
 
 #include "Common/Median.h"
-#include "Common/ParallelForWithProgress.h"
+#include "Sharing/MakeAll.h"
+#include "Sharing/ViewBytes.h"
 
 #include <algorithm>
 
@@ -86,13 +87,10 @@ std::vector<EdgeView> FindSceneFeatures(const Scene& scene,
   const EdgeStereoOptions& options, const ParallelFor& parallelFor, const Progress& progress,
   std::vector<std::string>& warnings)
 {
-  std::vector<EdgeView> views(scene.clusters.size());
   ImagePyramids photographs(scene);
-  ParallelForWithProgress(views.size(), parallelFor, progress,
-    [&](std::size_t i, const CancellationFlag& stop)
-    {
-      views[i] =
-        FeaturesOf(edges, photographs, images, scene.clusters[i], i < needed, options, stop);
+  std::vector<EdgeView> views = MakeAll<EdgeView>(scene.clusters.size(), parallelFor, progress,
+    [&](std::size_t i, const CancellationFlag& stop) {
+      return FeaturesOf(edges, photographs, images, scene.clusters[i], i < needed, options, stop);
     });
   const std::vector<char> isPoor = FindPoorViews(views);
   std::vector<EdgeView> good;

@@ -5,8 +5,9 @@
 #include "Agreement/ImageAgreement.h"
 #include "Agreement/RemainingImages.h"
 #include "Common/Error.h"
-#include "Common/ParallelForWithProgress.h"
 #include "Refinement/RefinementClusters.h"
+#include "Refinement/TrackBytes.h"
+#include "Sharing/MakeAll.h"
 #include "Stereo/ClusterMatching.h"
 
 #include <algorithm>
@@ -48,6 +49,19 @@ ImageAgreement AgreementOf(const ClusterMatches& found)
   return agreement;
 }
 
+struct MeasuredCluster
+{
+  ImageAgreement agreement;
+  std::vector<EdgeTrack> tracks;
+};
+
+template <typename Bytes>
+void Exchange(Bytes& bytes, MeasuredCluster& measured)
+{
+  ImageAgreement& agreement = measured.agreement;
+  bytes(agreement.image, agreement.tokens, agreement.confirmed, agreement.others, measured.tracks);
+}
+
 // Matches clusters around all images of a model, but those that were matched in the same company before.
 class AgreementMeter
 {
@@ -74,24 +88,24 @@ public:
         unknown.push_back(&cluster);
       }
     }
-    std::vector<ImageAgreement> found(unknown.size());
-    std::vector<std::vector<EdgeTrack>> tracks(unknown.size());
-    ParallelForWithProgress(unknown.size(), parallelFor, progress,
-      [&](std::size_t i, const CancellationFlag& stop)
-      {
-        const ClusterMatches matches = this->Match(this->Images, *unknown[i], stop);
-        found[i] = AgreementOf(matches);
-        if (this->Tracks)
+    std::vector<MeasuredCluster> found =
+      MakeAll<MeasuredCluster>(unknown.size(), parallelFor, progress,
+        [&](std::size_t i, const CancellationFlag& stop)
         {
-          tracks[i] = TracksOfCluster(matches, this->Options.matching.tracksPerImage);
-        }
-      });
+          const ClusterMatches matches = this->Match(this->Images, *unknown[i], stop);
+          MeasuredCluster measured{ AgreementOf(matches), {} };
+          if (this->Tracks)
+          {
+            measured.tracks = TracksOfCluster(matches, this->Options.matching.tracksPerImage);
+          }
+          return measured;
+        });
     for (std::size_t i = 0; i < unknown.size(); ++i)
     {
-      this->Known[unknown[i]->triplets] = found[i];
+      this->Known[unknown[i]->triplets] = found[i].agreement;
       if (this->Tracks)
       {
-        (*this->Tracks)[unknown[i]->triplets] = std::move(tracks[i]);
+        (*this->Tracks)[unknown[i]->triplets] = std::move(found[i].tracks);
       }
     }
     std::vector<ImageAgreement> all;
@@ -134,15 +148,14 @@ void KeepCoherentGroups(std::vector<std::string>& wrong, const std::vector<Clust
 {
   const std::vector<ImageAgreement> all =
     meter.Measure(clusters, parallelFor, progress.Part(0, 0.5));
-  std::vector<char> exceeds(all.size(), 0);
   const auto isWrong = [&](int image)
   {
     const std::string& file = images[static_cast<std::size_t>(image)].file;
     return std::find(wrong.begin(), wrong.end(), file) != wrong.end();
   };
-  ParallelForWithProgress(all.size(), parallelFor, progress.Part(0.5, 1),
+  const std::vector<char> exceeds = MakeAll<char>(all.size(), parallelFor, progress.Part(0.5, 1),
     [&](std::size_t i, const CancellationFlag& stop)
-    { exceeds[i] = isWrong(all[i].image) && meter.ExceedsChance(clusters[i], stop); });
+    { return isWrong(all[i].image) && meter.ExceedsChance(clusters[i], stop); });
   std::vector<ImageAgreement> candidates;
   for (std::size_t i = 0; i < all.size(); ++i)
   {

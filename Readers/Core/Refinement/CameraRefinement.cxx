@@ -4,6 +4,8 @@
 #include "Common/Error.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Refinement/RefinementClusters.h"
+#include "Refinement/TrackBytes.h"
+#include "Sharing/MakeAll.h"
 
 #include <map>
 #include <utility>
@@ -32,24 +34,29 @@ std::vector<EdgeTrack> MatchAll(EdgeStore& edges, const std::vector<CalibratedIm
   const CameraRefinementOptions& options, const ClusterTracks& known,
   const ParallelFor& parallelFor, const Progress& progress)
 {
-  std::vector<std::vector<EdgeTrack>> found(clusters.size());
-  ParallelForWithProgress(clusters.size(), parallelFor, progress,
+  using Tracks = std::vector<EdgeTrack>;
+  const auto isKnown = [&](const Cluster& cluster) { return known.count(cluster.triplets) > 0; };
+  std::vector<const Cluster*> unknown;
+  for (const Cluster& cluster : clusters)
+  {
+    if (!isKnown(cluster))
+    {
+      unknown.push_back(&cluster);
+    }
+  }
+  std::vector<Tracks> matched = MakeAll<Tracks>(unknown.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
     {
-      const auto same = known.find(clusters[i].triplets);
-      if (same != known.end())
-      {
-        found[i] = same->second;
-        return;
-      }
       const ClusterMatches matches =
-        MatchCluster(edges, images, clusters[i], matching, options.matching.tokensPerImage, stop);
-      found[i] = TracksOfCluster(matches, options.matching.tracksPerImage);
+        MatchCluster(edges, images, *unknown[i], matching, options.matching.tokensPerImage, stop);
+      return TracksOfCluster(matches, options.matching.tracksPerImage);
     });
+  auto next = matched.begin();
   std::vector<EdgeTrack> tracks;
-  for (std::vector<EdgeTrack>& some : found)
+  for (const Cluster& cluster : clusters)
   {
-    std::move(some.begin(), some.end(), std::back_inserter(tracks));
+    const Tracks& some = isKnown(cluster) ? known.at(cluster.triplets) : *next++;
+    tracks.insert(tracks.end(), some.begin(), some.end());
   }
   return tracks;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Silhouettes/SilhouetteMaps.h"
 
-#include "Common/ParallelForWithProgress.h"
 #include "Images/ImageMask.h"
 #include "Images/LensDistortion.h"
+#include "Sharing/MakeAll.h"
+#include "Sharing/ViewBytes.h"
 #include "Silhouettes/MaskTriangles.h"
 
 #include <algorithm>
@@ -78,18 +79,15 @@ std::vector<DisparityMap> SilhouetteMaps(const Scene& scene,
   const ParallelFor& parallelFor, const Progress& progress)
 {
   const AlignedBox3d box = BoundsOf(views);
-  std::vector<DisparityMap> maps(images.size());
-  ParallelForWithProgress(images.size(), parallelFor, progress,
+  std::vector<DisparityMap> maps = MakeAll<DisparityMap>(images.size(), parallelFor, progress,
     [&](std::size_t i, const CancellationFlag& stop)
     {
       ThrowIfCancelled(stop);
       const Camera& camera = images[i].camera;
       const cv::Mat mask = LoadMask(scene.MaskPath(images[i].file), camera.width, camera.height);
       const double depth = box.isEmpty() ? 0 : DepthBehind(camera, box);
-      if (!mask.empty() && depth > 0)
-      {
-        maps[i] = SilhouetteMap(images[i], MaskTriangles(mask), depth);
-      }
+      return !mask.empty() && depth > 0 ? SilhouetteMap(images[i], MaskTriangles(mask), depth)
+                                        : DisparityMap();
     });
   maps.erase(std::remove_if(maps.begin(), maps.end(),
                [](const DisparityMap& map) { return map.triangles.empty(); }),

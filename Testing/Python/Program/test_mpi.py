@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A contour that mpiexec shares out among processes is the one of a single process, byte for byte."""
+"""What mpiexec shares out among processes is what a single process makes, byte for byte."""
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -14,12 +16,22 @@ MPIEXEC = os.environ.get('FREESPACE_MPIEXEC', '')
 # Open MPI starts as root, and more processes than there are cores, only when told so.
 ALLOWED = {'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
            'OMPI_MCA_rmaps_base_oversubscribe': '1'}
+ENVIRONMENT = {**os.environ, **ALLOWED}
 
 
 def run(*arguments):
     """One process, or several after mpiexec's own arguments."""
-    return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=300,
-                          env={**os.environ, **ALLOWED})
+    return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
+
+
+def share(processes, *arguments):
+    return run(MPIEXEC, '-n', processes, PROGRAM, '--threads', 1, *arguments)
+
+
+def contents(file):
+    """Of a file of views, with the folder beside it."""
+    pieces = sorted(file.with_suffix('').rglob('*')) if file.suffix == '.vtm' else []
+    return [(piece.name, piece.read_bytes()) for piece in (file, *pieces)]
 
 
 @unittest.skipUnless(Path(MPIEXEC).is_file(), 'built without MPI, or mpiexec is not there')
@@ -28,29 +40,52 @@ class TestMpi(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix='freespace-test-'))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.maps = cls.folder / 'maps.vtm'
-        scene = json.loads((SCENE / 'scene.json').read_text())
-        scene.update(clusters=scene['clusters'][:1], images=str(SCENE / 'images'), model=str(SCENE / 'sparse'))
-        (cls.folder / 'scene.json').write_text(json.dumps(scene))
-        run(PROGRAM, 'stereo', cls.folder / 'scene.json', '-o', cls.folder / 'features.vtm')
-        run(PROGRAM, 'triangulate', cls.folder / 'features.vtm', '-o', cls.maps)
+        cls.scene = cls.write_scene('scene.json', SCENE / 'images')
+        cls.features, cls.maps = cls.folder / 'features.vtm', cls.folder / 'maps.vtm'
+        run(PROGRAM, 'stereo', cls.scene, '-o', cls.features)
+        run(PROGRAM, 'triangulate', cls.features, '-o', cls.maps)
 
-    def test_the_same_file(self):
-        one, three = self.folder / 'one.ply', self.folder / 'three.ply'
-        for options in ((), ('--no-sharp',), ('--observed',)):
-            with self.subTest(options=options):
-                arguments = ('contour', self.maps, '--cells', 100, *options, '-o')
-                self.assertEqual(run(PROGRAM, *arguments, one).returncode, 0)
-                result = run(MPIEXEC, '-n', 3, PROGRAM, *arguments, three)
+    @classmethod
+    def write_scene(cls, name, images):
+        scene = json.loads((SCENE / 'scene.json').read_text())
+        scene.update(clusters=scene['clusters'][:1], images=str(images), model=str(SCENE / 'sparse'))
+        (cls.folder / name).write_text(json.dumps(scene))
+        return cls.folder / name
+
+    def expect_the_same(self, one, *arguments, processes=(2, 3)):
+        """Whatever the number of processes, the output is that of one."""
+        for count in processes:
+            with self.subTest(arguments=arguments, processes=count):
+                other = self.folder / f'of {count}' / one.name
+                other.parent.mkdir(exist_ok=True)
+                result = share(count, *arguments, '-o', other)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(result.stderr.count('wrote '), 1, result.stderr)
-                self.assertEqual(three.read_bytes(), one.read_bytes())
+                self.assertEqual(contents(other), contents(one))
+
+    def test_features(self):
+        self.expect_the_same(self.features, 'stereo', self.scene)
+
+    def test_maps(self):
+        self.expect_the_same(self.maps, 'triangulate', self.features)
+
+    def test_surfaces(self):
+        for number, options in enumerate(((), ('--no-sharp',), ('--observed',))):
+            one = self.folder / f'surface-{number}.ply'
+            arguments = ('contour', self.maps, '--cells', 100, *options)
+            self.assertEqual(run(PROGRAM, *arguments, '-o', one).returncode, 0)
+            self.expect_the_same(one, *arguments, processes=(3,) if options else (2, 3))
+
+    def test_all_stages(self):
+        one = self.folder / 'whole.ply'
+        arguments = ('reconstruct', self.scene, '--cells', 60)
+        self.assertEqual(run(PROGRAM, *arguments, '-o', one).returncode, 0)
+        self.expect_the_same(one, *arguments)
 
     def test_one_process_works_for_other_commands(self):
-        result = run(MPIEXEC, '-n', 3, PROGRAM, 'triangulate', self.folder / 'features.vtm', '-o',
-                     self.folder / 'again.vtm')
+        result = share(3, 'info', self.maps)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stderr.count('wrote '), 1, result.stderr)
+        self.assertEqual(result.stdout, run(PROGRAM, 'info', self.maps).stdout)
 
     def expect_one_sentence(self, result, words):
         self.assertNotEqual(result.returncode, 0)
@@ -58,20 +93,67 @@ class TestMpi(unittest.TestCase):
         self.assertEqual(len(sentences), 1, result.stderr)
         self.assertIn(words, sentences[0])
 
+    def expect_nothing(self, file):
+        self.assertFalse(file.exists())
+        self.assertFalse(file.with_suffix('').exists())
+
     def test_a_fault_of_all(self):
-        self.expect_one_sentence(run(MPIEXEC, '-n', 3, PROGRAM, 'contour', self.folder / 'nothing.vtm',
-                                     '-o', self.folder / 'mesh.ply'), 'nothing.vtm')
+        mesh = self.folder / 'mesh.ply'
+        self.expect_one_sentence(share(3, 'contour', self.folder / 'nothing.vtm', '-o', mesh), 'nothing.vtm')
+        broken = self.scene_with_a_broken_image('broken.json')
+        self.expect_one_sentence(share(3, 'reconstruct', broken, '-o', mesh), 'broken')
+        self.expect_nothing(mesh)
 
     def test_a_fault_of_the_writing_process(self):
-        self.expect_one_sentence(run(MPIEXEC, '-n', 3, PROGRAM, 'contour', self.maps,
-                                     '-o', self.folder / 'no' / 'mesh.ply'), 'mesh.ply')
+        self.expect_one_sentence(share(3, 'contour', self.maps, '-o', self.folder / 'no' / 'mesh.ply'), 'mesh.ply')
 
-    def test_a_fault_of_another_process(self):
-        mesh = self.folder / 'never.ply'
+    def expect_one_fault(self, command, good, bad, output, words):
+        """Of two processes, one has an input that is broken: both end soon."""
+        one = (PROGRAM, '-q', '--threads', 1, command)
+        for inputs in ((good, bad), (bad, good)):
+            with self.subTest(command=command, first=inputs[0].name):
+                began = time.monotonic()
+                result = run(MPIEXEC, '-n', 1, *one, inputs[0], '-o', output, ':',
+                             '-n', 1, *one, inputs[1], '-o', output)
+                self.expect_one_sentence(result, words)
+                self.assertLess(time.monotonic() - began, 60)
+                self.expect_nothing(output)
+
+    def scene_with_a_broken_image(self, name):
+        images = self.folder / 'broken'
+        if not images.exists():
+            shutil.copytree(SCENE / 'images', images)
+            reference = json.loads(self.scene.read_text())['clusters'][0]['reference']
+            (images / reference).write_bytes(b'no image')
+        return self.write_scene(name, images)
+
+    def test_a_fault_of_one_process(self):
+        self.expect_one_fault('contour', self.maps, self.folder / 'lost.vtm', self.folder / 'never.ply', 'lost.vtm')
+        self.expect_one_fault('triangulate', self.features, self.folder / 'lost.vtm', self.folder / 'never.vtm',
+                              'lost.vtm')
+        self.expect_one_fault('stereo', self.scene, self.scene_with_a_broken_image('one.json'),
+                              self.folder / 'never.vtm', 'broken')
+
+    def test_processes_with_different_options(self):
+        """They would wait for each other for ever."""
+        output = self.folder / 'never.vtm'
+        one = (PROGRAM, '--threads', 1, 'stereo', self.scene, '-o', output)
         self.expect_one_sentence(
-            run(MPIEXEC, '-n', 1, PROGRAM, '-q', 'contour', self.maps, '-o', mesh, ':',
-                '-n', 2, PROGRAM, '-q', 'contour', self.folder / 'lost.vtm', '-o', mesh), 'lost.vtm')
-        self.assertFalse(mesh.exists())
+            run(MPIEXEC, '-n', 1, *one, ':', '-n', 1, *one, '--every-image', 'off'), 'different files or options')
+        self.expect_nothing(output)
+
+    def test_a_request_to_stop(self):
+        mesh = self.folder / 'stopped.ply'
+        process = subprocess.Popen(
+            [MPIEXEC, '-n', '2', PROGRAM, '--threads', '1', 'reconstruct', self.scene, '-o', mesh],
+            stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
+        while 'stereo' not in process.stderr.readline():
+            self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        words = process.communicate(timeout=60)[1]
+        self.assertNotEqual(process.returncode, 0)
+        self.assertEqual(words.count('Stopped on request.'), 1, words)
+        self.expect_nothing(mesh)
 
 
 if __name__ == '__main__':

@@ -6,6 +6,7 @@
 #include "Common/Error.h"
 #include "Session/MachineMemory.h"
 #include "Session/NumberValidators.h"
+#include "Session/Ranks.h"
 #include "Session/Session.h"
 #include "Tables/ResultFile.h"
 #include "Tables/TextTable.h"
@@ -125,6 +126,7 @@ std::string CsvOf(const std::vector<std::vector<std::string>>& rows)
 void RunBatch(
   Session& session, const RunSettings& settings, const std::vector<std::string>& commands)
 {
+  ForgetLaunch(); // the steps are processes of their own
   const BatchFile batch = ReadBatch(settings.batch, commands);
   const std::vector<BatchScene> scenes = FindScenes(settings.scenes);
   CheckResultFile(settings.table);

@@ -3,7 +3,6 @@
 
 #include "Output/SurfaceFiles.h"
 #include "Output/ViewFiles.h"
-#include "Session/Ranks.h"
 #include "Session/Session.h"
 #include "Stages/ContourStage.h"
 
@@ -26,45 +25,24 @@ struct ContourSettings
   ContourStage contour;
 };
 
-// Each of the processes that mpiexec started makes a piece, the first one joins and writes them. All
-// read the maps for themselves.
+// All processes read the maps for themselves.
 void Contour(Session& session, const ContourSettings& settings)
 {
-  Ranks ranks;
-  vtkSmartPointer<vtkMultiBlockDataSet> maps;
-  vtkSmartPointer<vtkBisectionContourFilter> filter;
-  vtkSmartPointer<vtkPolyData> piece;
-  bool isWritten = false;
-  ranks.Together(
-    [&]()
-    {
-      if (ranks.Rank() == 0)
-      {
-        CheckSurfaceName(settings.output);
-      }
-      maps = ReadMaps(session, settings.maps);
-      filter = settings.contour.MakeFilter(maps);
-      settings.contour.Choose(session, filter);
-      isWritten =
-        ranks.Count() == 1 && settings.contour.Stream(session, filter, maps, settings.output);
-      piece = isWritten ? nullptr
-                        : settings.contour.RunPiece(session, filter, ranks.Rank(), ranks.Count());
-    });
-  if (isWritten)
+  if (session.IsWriter())
+  {
+    CheckSurfaceName(settings.output);
+  }
+  const auto maps = ReadMaps(session, settings.maps);
+  const auto filter = settings.contour.MakeFilter(maps);
+  settings.contour.Choose(session, filter);
+  if (!session.Shared() && settings.contour.Stream(session, filter, maps, settings.output))
   {
     return;
   }
-  const auto pieces = ranks.Gather(piece);
-  ranks.Together(
-    [&]()
-    {
-      if (ranks.Rank() == 0)
-      {
-        const auto surface = settings.contour.Join(session, maps, pieces);
-        ContourStage::GiveViewpoint(filter, maps, surface);
-        WriteSurface(session, surface, settings.output);
-      }
-    });
+  if (const auto surface = settings.contour.Make(session, filter, maps))
+  {
+    WriteSurface(session, surface, settings.output);
+  }
 }
 
 }

@@ -60,16 +60,8 @@ std::array<int, 2> SizeLike(const Camera& camera)
     std::max(1, static_cast<int>(scale * camera.height)) };
 }
 
-void Reconstruct(Session& session, const ReconstructSettings& settings)
+void Write(Session& session, vtkPolyData* surface, const ReconstructSettings& settings)
 {
-  CheckSurfaceName(settings.output);
-  if (!settings.picture.empty())
-  {
-    CheckPictureName(settings.picture);
-  }
-  const auto features = settings.features.Run(session, settings.scene);
-  const auto maps = settings.triangulate.Run(session, features);
-  const auto surface = settings.contour.Run(session, maps);
   WriteSurface(session, surface, settings.output);
   if (!settings.picture.empty())
   {
@@ -79,6 +71,24 @@ void Reconstruct(Session& session, const ReconstructSettings& settings)
       look.size = SizeLike(*viewpoint);
     }
     WritePicture(session, surface, nullptr, look, settings.picture);
+  }
+}
+
+void Reconstruct(Session& session, const ReconstructSettings& settings)
+{
+  if (session.IsWriter())
+  {
+    CheckSurfaceName(settings.output);
+    if (!settings.picture.empty())
+    {
+      CheckPictureName(settings.picture);
+    }
+  }
+  const auto features = settings.features.Run(session, settings.scene);
+  const auto maps = settings.triangulate.Run(session, features);
+  if (const auto surface = settings.contour.Run(session, maps))
+  {
+    Write(session, surface, settings);
   }
 }
 
@@ -92,8 +102,10 @@ void AddReconstructCommand(CLI::App& program, Session& session)
   AddOptions(*command, *settings);
   command->footer("Example:\n"
                   "  freespace reconstruct scene.json -o mesh.ply --picture mesh.png\n"
-                  "  freespace reconstruct colmap/sparse/0 -o mesh.ply");
-  command->callback(session.Defer([settings, &session]() { Reconstruct(session, *settings); }));
+                  "  freespace reconstruct colmap/sparse/0 -o mesh.ply\n"
+                  "  mpiexec -n 4 freespace reconstruct scene.json -o mesh.ply");
+  command->callback(session.Defer(
+    [settings, &session]() { Reconstruct(session, *settings); }, Session::Sharing::AllProcesses));
 }
 
 }

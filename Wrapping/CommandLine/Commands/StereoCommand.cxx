@@ -29,8 +29,15 @@ struct StereoSettings
 
 void FindFeatures(Session& session, const StereoSettings& settings)
 {
-  CheckViewsName(settings.output);
+  if (session.IsWriter())
+  {
+    CheckViewsName(settings.output);
+  }
   const auto features = settings.stereo.Run(session, settings.scene);
+  if (!session.IsWriter())
+  {
+    return;
+  }
   WriteViews(session, features, settings.output);
   if (!settings.overlay.empty())
   {
@@ -62,8 +69,10 @@ void AddStereoCommand(CLI::App& program, Session& session)
       "Write each reference image with its features drawn over it, coloured by disparity")
     ->type_name("FOLDER");
   settings->stereo.AddOptions(*command);
-  command->footer("Example:\n  freespace stereo scene.json -o features.vtm --overlay pictures");
-  command->callback(session.Defer([settings, &session]() { FindFeatures(session, *settings); }));
+  command->footer("Example:\n  freespace stereo scene.json -o features.vtm --overlay pictures\n"
+                  "  mpiexec -n 4 freespace stereo scene.json -o features.vtm");
+  command->callback(session.Defer(
+    [settings, &session]() { FindFeatures(session, *settings); }, Session::Sharing::AllProcesses));
 }
 
 }

@@ -22,6 +22,21 @@ struct TriangulateSettings
   TriangulateStage triangulate;
 };
 
+// All processes read the features for themselves.
+void Triangulate(Session& session, const TriangulateSettings& settings)
+{
+  if (session.IsWriter())
+  {
+    CheckViewsName(settings.output);
+  }
+  const auto features = ReadFeatures(session, settings.features);
+  const auto maps = settings.triangulate.Run(session, features);
+  if (session.IsWriter())
+  {
+    WriteViews(session, maps, settings.output);
+  }
+}
+
 }
 
 void AddTriangulateCommand(CLI::App& program, Session& session)
@@ -36,14 +51,10 @@ void AddTriangulateCommand(CLI::App& program, Session& session)
     ->required()
     ->type_name("MAPS.vtm");
   settings->triangulate.AddOptions(*command);
-  command->footer("Example:\n  freespace triangulate features.vtm -o maps.vtm");
+  command->footer("Example:\n  freespace triangulate features.vtm -o maps.vtm\n"
+                  "  mpiexec -n 4 freespace triangulate features.vtm -o maps.vtm");
   command->callback(session.Defer(
-    [settings, &session]()
-    {
-      CheckViewsName(settings->output);
-      const auto features = ReadFeatures(session, settings->features);
-      WriteViews(session, settings->triangulate.Run(session, features), settings->output);
-    }));
+    [settings, &session]() { Triangulate(session, *settings); }, Session::Sharing::AllProcesses));
 }
 
 }

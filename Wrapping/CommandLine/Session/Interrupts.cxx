@@ -2,6 +2,7 @@
 #include "Session/Interrupts.h"
 
 #include "Files/WorkFolder.h"
+#include "Session/Ranks.h"
 #include "Session/StderrCapture.h"
 
 #include <atomic>
@@ -26,7 +27,8 @@ void Nothing(int) {}
 {
   RemoveWorkFolders();
   constexpr char sentence[] = "freespace: Stopped on request.\n";
-  if (write(StderrCapture::RealDescriptor(), sentence, sizeof sentence - 1) < 0)
+  if (LaunchedRank() == 0 &&
+    write(StderrCapture::RealDescriptor(), sentence, sizeof sentence - 1) < 0)
   {
     // Nothing else can be done.
   }

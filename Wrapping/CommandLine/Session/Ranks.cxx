@@ -3,8 +3,8 @@
 
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
-
-#include <vtkPolyData.h>
+#include "Sharing/ProcessMessages.h"
+#include "Sharing/SharedWork.h"
 
 #ifdef FREESPACE_HAS_MPI
 #include <vtkMPIController.h>
@@ -21,7 +21,10 @@ namespace
 {
 
 // Open MPI's variables, and those of MPICH and its relatives.
-int FromEnvironment(std::initializer_list<const char*> names, int otherwise)
+constexpr const char* rankNames[] = { "OMPI_COMM_WORLD_RANK", "PMI_RANK" };
+constexpr const char* countNames[] = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE" };
+
+int FromEnvironment(const char* const (&names)[2], int otherwise)
 {
   for (const char* name : names)
   {
@@ -37,132 +40,86 @@ int FromEnvironment(std::initializer_list<const char*> names, int otherwise)
 
 int LaunchedRank()
 {
-  return FromEnvironment({ "OMPI_COMM_WORLD_RANK", "PMI_RANK" }, 0);
+  return FromEnvironment(rankNames, 0);
 }
 
 int LaunchedCount()
 {
-  return FromEnvironment({ "OMPI_COMM_WORLD_SIZE", "PMI_SIZE" }, 1);
+  return FromEnvironment(countNames, 1);
+}
+
+void ForgetLaunch()
+{
+  for (int i = 0; i < 2; ++i)
+  {
+    unsetenv(rankNames[i]);
+    unsetenv(countNames[i]);
+  }
 }
 
 #ifdef FREESPACE_HAS_MPI
 
-namespace
+class Ranks::Processes : public ProcessMessages
 {
+public:
+  Processes() { this->Controller->Initialize(nullptr, nullptr, 0); }
+  ~Processes() override { this->Controller->Finalize(); }
 
-enum Outcome : int
-{
-  Done = 0,
-  Failed = 1,
-  Stopped = 2
+  int Rank() const override { return this->Controller->GetLocalProcessId(); }
+  int Count() const override { return this->Controller->GetNumberOfProcesses(); }
+
+  void Send(int to, const std::string& message) override
+  {
+    const auto size = static_cast<vtkIdType>(message.size());
+    this->Controller->Send(&size, 1, to, Tag);
+    this->Controller->Send(message.data(), size, to, Tag);
+  }
+
+  bool Receive(int& from, std::string& message) override
+  {
+    int isThere = 0;
+    this->Controller->Iprobe(vtkMultiProcessController::ANY_SOURCE, Tag, &isThere, &from);
+    if (!isThere)
+    {
+      return false;
+    }
+    vtkIdType size = 0;
+    this->Controller->Receive(&size, 1, from, Tag);
+    message.resize(size);
+    this->Controller->Receive(message.data(), size, from, Tag);
+    return true;
+  }
+
+private:
+  static constexpr int Tag = 4101;
+  vtkNew<vtkMPIController> Controller;
 };
 
-constexpr int surfaceTag = 4101;
+#else
 
-}
-
-struct Ranks::Processes
+class Ranks::Processes : public ProcessMessages
 {
-  vtkNew<vtkMPIController> controller;
-
-  Processes() { this->controller->Initialize(nullptr, nullptr, 0); }
-  ~Processes() { this->controller->Finalize(); }
+public:
+  Processes()
+  {
+    throw Error("This program was built without MPI: it runs in one process, without mpiexec.");
+  }
+  int Rank() const override { return 0; }
+  int Count() const override { return 1; }
+  void Send(int, const std::string&) override {}
+  bool Receive(int&, std::string&) override { return false; }
 };
+
+#endif
 
 Ranks::Ranks()
 {
   if (LaunchedCount() > 1)
   {
     this->Others = std::make_unique<Processes>();
-    this->Number = this->Others->controller->GetLocalProcessId();
-    this->Size = this->Others->controller->GetNumberOfProcesses();
+    this->Shared = std::make_unique<SharedWork>(*this->Others);
   }
 }
-
-void Ranks::Together(const std::function<void()>& work)
-{
-  if (!this->Others)
-  {
-    work();
-    return;
-  }
-  int outcome = Done;
-  std::string sentence;
-  try
-  {
-    work();
-  }
-  catch (const Aborted&)
-  {
-    outcome = Stopped;
-  }
-  catch (const std::exception& error)
-  {
-    outcome = Failed;
-    sentence = error.what();
-  }
-  std::vector<int> outcomes(this->Size);
-  this->Others->controller->AllGather(&outcome, outcomes.data(), 1);
-  int failed = -1;
-  for (int rank = this->Size - 1; rank >= 0; --rank)
-  {
-    if (outcomes[rank] == Stopped)
-    {
-      throw Aborted();
-    }
-    failed = outcomes[rank] == Failed ? rank : failed;
-  }
-  if (failed >= 0)
-  {
-    int length = static_cast<int>(sentence.size());
-    this->Others->controller->Broadcast(&length, 1, failed);
-    sentence.resize(length);
-    this->Others->controller->Broadcast(sentence.data(), length, failed);
-    throw Error(sentence);
-  }
-}
-
-std::vector<vtkSmartPointer<vtkPolyData>> Ranks::Gather(vtkPolyData* own)
-{
-  if (this->Number > 0)
-  {
-    this->Others->controller->Send(own, 0, surfaceTag);
-    return {};
-  }
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces = { own };
-  for (int rank = 1; rank < this->Size; ++rank)
-  {
-    surfaces.push_back(vtkSmartPointer<vtkPolyData>::New());
-    this->Others->controller->Receive(surfaces.back(), rank, surfaceTag);
-  }
-  return surfaces;
-}
-
-#else
-
-struct Ranks::Processes
-{
-};
-
-Ranks::Ranks()
-{
-  if (LaunchedCount() > 1)
-  {
-    throw Error("This program was built without MPI: it runs in one process, without mpiexec.");
-  }
-}
-
-void Ranks::Together(const std::function<void()>& work)
-{
-  work();
-}
-
-std::vector<vtkSmartPointer<vtkPolyData>> Ranks::Gather(vtkPolyData* own)
-{
-  return { own };
-}
-
-#endif
 
 Ranks::~Ranks() = default;
 

@@ -8,6 +8,7 @@
 #include "Session/ProgressLine.h"
 #include "Session/Ranks.h"
 #include "Session/StderrCapture.h"
+#include "Sharing/SharedWork.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -104,9 +105,34 @@ void Session::RunCommand()
   }
   this->Quiet = this->Quiet || LaunchedRank() > 0;
   this->Begin();
-  this->Action();
-  this->ThrowIfFailed(); // by what was done beside the stages
+  if (this->ActionSharing == Sharing::AllProcesses)
+  {
+    this->RunShared();
+  }
+  else
+  {
+    this->Action();
+    this->ThrowIfFailed(); // by what was done beside the stages
+  }
   this->SumUp();
+}
+
+void Session::RunShared()
+{
+  const Ranks ranks;
+  this->Processes = ranks.Work();
+  const auto action = [this]
+  {
+    this->Action();
+    this->ThrowIfFailed();
+  };
+  this->Processes ? this->Processes->Together(action) : action();
+  this->Processes = nullptr;
+}
+
+bool Session::IsWriter() const
+{
+  return !this->Processes || this->Processes->IsFirst();
 }
 
 void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)

@@ -17,6 +17,8 @@ class vtkWriter;
 namespace freespace
 {
 
+class SharedWork;
+
 /// The common part of all commands: the options --quiet, --threads and --strict, and running VTK algorithms so that
 /// their progress is shown, their errors become one sentence and an interrupt stops them cleanly. Warnings
 /// are reported when they arise and again at the end of the run; --strict turns the first one into an error,
@@ -41,6 +43,12 @@ public:
 
   /// Runs the action of the command.
   void RunCommand();
+
+  /// While all processes run a command: what they share its work out by, or null where there is one alone.
+  SharedWork* Shared() const { return this->Processes; }
+
+  /// Whether this process writes the output: the only or the first one.
+  bool IsWriter() const;
 
   /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
   /// first error said.
@@ -76,6 +84,7 @@ public:
 
 private:
   void Begin();
+  void RunShared();
   void TellWarning(const std::string& sentence);
   void ThrowIfStrict() const;
   void SumUp() const;
@@ -87,6 +96,7 @@ private:
   Choices Chosen;
   int Threads = 0;
   Sharing ActionSharing = Sharing::FirstProcess;
+  SharedWork* Processes = nullptr;
   std::function<void()> Action;
 };
 

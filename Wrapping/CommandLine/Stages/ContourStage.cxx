@@ -10,6 +10,7 @@
 #include "Session/NumberValidators.h"
 #include "Session/MachineMemory.h"
 #include "Session/Session.h"
+#include "Stages/ContourPieces.h"
 
 #include <vtkAppendPiecesFilter.h>
 #include <vtkBisectionContourFilter.h>
@@ -93,8 +94,27 @@ vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDa
 {
   const auto contour = this->MakeFilter(maps);
   this->Choose(session, contour);
-  const auto surface = this->Join(session, maps, { this->RunPiece(session, contour, 0, 1) });
-  GiveViewpoint(contour, maps, surface);
+  return this->Make(session, contour, maps);
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::Make(
+  Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps) const
+{
+  vtkSmartPointer<vtkPolyData> surface;
+  if (session.Shared())
+  {
+    const auto pieces = MakePieces(session, contour);
+    surface = session.IsWriter() ? this->Join(session, pieces) : nullptr;
+  }
+  else
+  {
+    surface = this->MakeWhole(session, contour);
+  }
+  if (surface)
+  {
+    surface = this->Finish(session, maps, surface);
+    GiveViewpoint(contour, maps, surface);
+  }
   return surface;
 }
 
@@ -157,11 +177,11 @@ void ContourStage::TellCrumbs(Session& session, vtkIdType triangles)
   }
 }
 
-vtkSmartPointer<vtkPolyData> ContourStage::RunPiece(
-  Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const
+vtkSmartPointer<vtkPolyData> ContourStage::MakeWhole(
+  Session& session, vtkBisectionContourFilter* contour) const
 {
-  contour->SetObservedOnly(this->Observed && pieces == 1);
-  session.Run(contour, "contour", piece, pieces);
+  contour->SetObservedOnly(this->Observed);
+  session.Run(contour, "contour");
   TellCrumbs(session, contour->GetCrumbTriangles());
   return contour->GetOutput();
 }
@@ -202,23 +222,24 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
   return true;
 }
 
-vtkSmartPointer<vtkPolyData> ContourStage::Join(Session& session, vtkMultiBlockDataSet* maps,
-  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+vtkSmartPointer<vtkPolyData> ContourStage::Join(
+  Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
 {
-  vtkSmartPointer<vtkPolyData> surface = pieces.front();
-  if (pieces.size() > 1)
+  vtkNew<vtkAppendPiecesFilter> append;
+  append->SetObservedOnly(this->Observed);
+  append->SetCrumbs(this->Crumbs == "keep");
+  for (vtkPolyData* piece : pieces)
   {
-    vtkNew<vtkAppendPiecesFilter> append;
-    append->SetObservedOnly(this->Observed);
-    append->SetCrumbs(this->Crumbs == "keep");
-    for (vtkPolyData* piece : pieces)
-    {
-      append->AddInputData(piece);
-    }
-    session.Run(append, "join");
-    TellCrumbs(session, append->GetCrumbTriangles());
-    surface = append->GetOutput();
+    append->AddInputData(piece);
   }
+  session.Run(append, "join");
+  TellCrumbs(session, append->GetCrumbTriangles());
+  return append->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> ContourStage::Finish(
+  Session& session, vtkMultiBlockDataSet* maps, vtkSmartPointer<vtkPolyData> surface) const
+{
   session.Log("contour: " + std::to_string(surface->GetNumberOfPoints()) + " vertices, " +
     std::to_string(surface->GetNumberOfCells()) + " triangles");
   if (!this->NotFitted)

@@ -27,6 +27,8 @@ class ContourStage
 {
 public:
   void AddOptions(CLI::App& command);
+
+  /// Null in processes that do not write it.
   vtkSmartPointer<vtkPolyData> Run(Session& session, vtkMultiBlockDataSet* maps) const;
 
   /// The filters that make it from the maps.
@@ -37,21 +39,25 @@ public:
 
   /// Writes it to a file a piece at a time where it does not fit into the memory limit, but its pieces do
   /// and the file is a .ply. False, with nothing done, where it fits, or cannot be had like that: then
-  /// RunPiece tells why.
+  /// Make tells why.
   bool Stream(Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps,
     const std::string& fileName) const;
 
-  /// One of the pieces that Join makes the same surface of.
-  vtkSmartPointer<vtkPolyData> RunPiece(
-    Session& session, vtkBisectionContourFilter* contour, int piece, int pieces) const;
-  vtkSmartPointer<vtkPolyData> Join(Session& session, vtkMultiBlockDataSet* maps,
-    const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
-
-  /// Gives the surface a viewpoint (Output/Viewpoint.h), by the features in the region.
-  static void GiveViewpoint(
-    vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface);
+  /// Makes the surface, as Run does once the lattice is chosen.
+  vtkSmartPointer<vtkPolyData> Make(
+    Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps) const;
 
 private:
+  vtkSmartPointer<vtkPolyData> MakeWhole(
+    Session& session, vtkBisectionContourFilter* contour) const;
+  vtkSmartPointer<vtkPolyData> Join(
+    Session& session, const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
+  vtkSmartPointer<vtkPolyData> Finish(
+    Session& session, vtkMultiBlockDataSet* maps, vtkSmartPointer<vtkPolyData> surface) const;
+
+  // Gives the surface a viewpoint (Output/Viewpoint.h), by the features in the region.
+  static void GiveViewpoint(
+    vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps, vtkPolyData* surface);
   static void TellCrumbs(Session& session, vtkIdType triangles);
 
   UnionOptions Union;

@@ -87,6 +87,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> StereoStage::Run(
   vtkNew<vtkClusterProposal> clusters;
   this->Choice.Apply(clusters);
   stereo->SetClusterProposal(clusters);
+  stereo->SetSharedWork(session.Shared());
   session.Run(stereo, "stereo");
   if (!stereo->GetImageSummary().empty())
   {

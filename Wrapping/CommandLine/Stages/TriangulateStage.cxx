@@ -115,6 +115,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> TriangulateStage::Run(
 {
   vtkNew<vtkDelaunayDisparityFilter> maps;
   maps->SetInputDataObject(features);
+  maps->SetSharedWork(session.Shared());
   maps->SetFeatureSpacing(this->FeatureSpacing);
   maps->SetPartnerViews(this->PartnerViews);
   maps->SetTolerance(this->Tolerance);

@@ -5,6 +5,8 @@
 #include "Common/ParallelForWithProgress.h"
 #include "Disparity/Background/BridgedMap.h"
 #include "Disparity/OverlappingViews.h"
+#include "Sharing/MakeAll.h"
+#include "Sharing/ViewBytes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -449,8 +451,7 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
     { bridged[v] = std::make_unique<BridgedMap>(maps[v], options, stop); });
   const std::vector<std::vector<int>> overlapping = OverlappingViews(maps);
   const std::vector<std::vector<int>> partners = PartnerViews(maps, options.partners);
-  std::vector<DisparityMap> continued(maps.size());
-  ParallelForWithProgress(work, parallelFor, progress.Part(0.4, 1.0),
+  maps = MakeAll<DisparityMap>(work, parallelFor, progress.Part(0.4, 1.0),
     [&](std::size_t v, const CancellationFlag& stop)
     {
       std::vector<int> compared;
@@ -462,10 +463,9 @@ void ContinueBackground(std::vector<DisparityMap>& maps, const FeatureCloud& clo
       std::vector<int> withOwn = partners[v];
       withOwn.insert(
         std::lower_bound(withOwn.begin(), withOwn.end(), static_cast<int>(v)), static_cast<int>(v));
-      continued[v] =
-        BackgroundContinuer(*bridged[v], std::move(others), options).Continue(cloud, withOwn, stop);
+      return BackgroundContinuer(*bridged[v], std::move(others), options)
+        .Continue(cloud, withOwn, stop);
     });
-  maps = std::move(continued);
 }
 
 void ContinueBackground(std::vector<DisparityMap>& maps, const std::vector<View>& views,

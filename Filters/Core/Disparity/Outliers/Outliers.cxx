@@ -8,6 +8,7 @@
 #include "Disparity/Outliers/TriangulationSupport.h"
 #include "Disparity/Outliers/ViolatedTriangles.h"
 #include "Disparity/OverlappingViews.h"
+#include "Sharing/MakeAll.h"
 #include "ViewFreespace/ViewFreespace.h"
 
 #include <algorithm>
@@ -151,17 +152,18 @@ Flags SupportedWithinRadius(const std::vector<View>& views, const OutlierOptions
   std::transform(views.begin(), views.end(), std::back_inserter(work),
     [](const View& view) { return static_cast<double>(view.points.size()); });
   const ConfirmedFeatures confirmed(views, options);
-  Flags accepted(views.size());
-  ParallelForWithProgress(work, parallelFor, progress,
+  Flags accepted = MakeAll<std::vector<char>>(work, parallelFor, progress,
     [&](std::size_t v, const CancellationFlag&)
     {
+      std::vector<char> flags;
       const double radius = std::max(options.radius * MeanSpacing(views[v]), least);
       for (const int support : CountSupport(views[v], radius, options.tolerance))
       {
         // Not finite or not in front of the camera: -1.
-        accepted[v].push_back(support >= options.support ||
-          (support >= 0 && confirmed.Has(views[v].points[accepted[v].size()])));
+        flags.push_back(support >= options.support ||
+          (support >= 0 && confirmed.Has(views[v].points[flags.size()])));
       }
+      return flags;
     });
   KeepTriangles(accepted);
   return accepted;
@@ -173,7 +175,7 @@ Flags AcceptedInMaps(const std::vector<View>& views, const std::vector<Disparity
 {
   std::vector<std::unique_ptr<ViewFreespace>> freespaces(maps.size());
   const ConfirmedFeatures confirmed(views, options);
-  Flags supported(maps.size()), accepted(maps.size());
+  Flags supported(maps.size());
   std::vector<double> work;
   std::transform(maps.begin(), maps.end(), std::back_inserter(work),
     [](const DisparityMap& map) { return static_cast<double>(map.points.size()); });
@@ -192,7 +194,7 @@ Flags AcceptedInMaps(const std::vector<View>& views, const std::vector<Disparity
     options.violatingFeatures > 0 ? PassedViews(maps, supported) : std::vector<View>());
   const auto overlapping =
     options.seeThroughViews > 0 ? OverlappingViews(maps) : std::vector<std::vector<int>>();
-  ParallelForWithProgress(work, parallelFor, progress.Part(0.5, 1.0),
+  Flags accepted = MakeAll<std::vector<char>>(work, parallelFor, progress.Part(0.5, 1.0),
     [&](std::size_t v, const CancellationFlag& stop)
     {
       std::vector<char> passed = supported[v], behind(maps[v].points.size(), 0);
@@ -209,7 +211,7 @@ Flags AcceptedInMaps(const std::vector<View>& views, const std::vector<Disparity
           (options.seeThroughViews == 0 ||
             !IsSeenThrough(maps[v].points[p], overlapping[v], freespaces, maps, options));
       }
-      accepted[v] = OfFeatures(views[v], maps[v], passed);
+      return OfFeatures(views[v], maps[v], passed);
     });
   KeepTriangles(accepted);
   return accepted;
