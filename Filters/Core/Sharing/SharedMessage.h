@@ -31,7 +31,7 @@ struct SharedMessage
     Request, ///< `made` and how many `threads` have no item, in a loop with this number and count of items
     Items,   ///< the next `items` for the process
     LoopEnd, ///< what the others have `made`; or, Failed, the `sentence` of why all end
-    Ended,   ///< `outcome` and sentence of the process
+    Ended,   ///< `outcome`, `sentence` and notes of the process
     Verdict  ///< `outcome` and sentence of all
   };
 
@@ -44,13 +44,14 @@ struct SharedMessage
   std::vector<MadeItem> made;
   Outcome outcome = Outcome::Done;
   std::string sentence;
+  std::vector<std::string> notes;
 };
 
 template <typename Bytes>
 void Exchange(Bytes& bytes, SharedMessage& message)
 {
   bytes(message.kind, message.loop, message.count, message.threads, message.areLast, message.items,
-    message.made, message.outcome, message.sentence);
+    message.made, message.outcome, message.sentence, message.notes);
 }
 
 }

@@ -50,6 +50,18 @@ private:
   int Calls = 0;
 };
 
+void Throw(Outcome outcome, const std::string& sentence)
+{
+  if (outcome == Outcome::Stopped)
+  {
+    throw Aborted();
+  }
+  if (outcome == Outcome::Failed)
+  {
+    throw Error(sentence);
+  }
+}
+
 void Take(const SharedLoop& loop, const std::vector<MadeItem>& madeByOthers)
 {
   for (const MadeItem& made : madeByOthers)
@@ -72,17 +84,27 @@ SharedWork::SharedWork(ProcessMessages& messages)
 
 void SharedWork::Together(const std::function<void()>& work)
 {
-  std::fill(this->Endings.begin(), this->Endings.end(), Ending());
+  this->HaveEnded = false;
   const Ending own = Attempt(work);
+  if (this->HaveEnded)
+  {
+    Throw(own.outcome, own.sentence);
+  }
+  this->Settle(own);
+}
+
+std::vector<std::string> SharedWork::Agree(std::vector<std::string> notes)
+{
+  return this->Settle({ Outcome::Done, "", std::move(notes), true });
+}
+
+// Tells the others how the own work has ended, and throws when that of any has failed.
+std::vector<std::string> SharedWork::Settle(const Ending& own)
+{
   const Ending all = this->IsFirst() ? this->Collect(own) : this->Report(own);
-  if (all.outcome == Outcome::Stopped)
-  {
-    throw Aborted();
-  }
-  if (all.outcome == Outcome::Failed)
-  {
-    throw Error(all.sentence);
-  }
+  this->HaveEnded = all.outcome != Outcome::Done;
+  Throw(all.outcome, all.sentence);
+  return all.notes;
 }
 
 SharedWork::Ending SharedWork::Attempt(const std::function<void()>& work)
@@ -93,13 +115,13 @@ SharedWork::Ending SharedWork::Attempt(const std::function<void()>& work)
   }
   catch (const Aborted& abort)
   {
-    return { Outcome::Stopped, abort.what(), true };
+    return { Outcome::Stopped, abort.what(), {}, true };
   }
   catch (const std::exception& error)
   {
-    return { Outcome::Failed, error.what(), true };
+    return { Outcome::Failed, error.what(), {}, true };
   }
-  return { Outcome::Done, "", true };
+  return { Outcome::Done, "", {}, true };
 }
 
 // In the first process: waits until all have ended. Those in a loop do when they are told to.
@@ -121,16 +143,16 @@ SharedWork::Ending SharedWork::Collect(const Ending& own)
     }
     else if (message.kind == Kind::Ended)
     {
-      this->Endings[from] = { message.outcome, message.sentence, true };
+      this->Endings[from] = { message.outcome, message.sentence, std::move(message.notes), true };
     }
     else if (this->Endings[0].outcome == Outcome::Done)
     {
-      this->Endings[0] = { Outcome::Failed, disagreement, true };
+      this->Endings[0] = { Outcome::Failed, disagreement, {}, true };
       this->EndLoops(disagreement);
     }
   }
   // Stopped is the greatest outcome, and the first of equal ones counts.
-  const Ending all = *std::max_element(this->Endings.begin(), this->Endings.end(),
+  Ending all = *std::max_element(this->Endings.begin(), this->Endings.end(),
     [](const Ending& a, const Ending& b) { return a.outcome < b.outcome; });
   for (int process = 1; process < this->Messages.Count(); ++process)
   {
@@ -140,6 +162,13 @@ SharedWork::Ending SharedWork::Collect(const Ending& own)
     verdict.sentence = all.sentence;
     this->Send(process, std::move(verdict));
   }
+  all.notes.clear();
+  for (int process = 1; process < this->Messages.Count(); ++process)
+  {
+    const std::vector<std::string>& notes = this->Endings[process].notes;
+    all.notes.insert(all.notes.end(), notes.begin(), notes.end());
+  }
+  std::fill(this->Endings.begin(), this->Endings.end(), Ending());
   return all;
 }
 
@@ -150,13 +179,14 @@ SharedWork::Ending SharedWork::Report(const Ending& own)
   ended.kind = Kind::Ended;
   ended.outcome = own.outcome;
   ended.sentence = own.sentence;
+  ended.notes = own.notes;
   this->Send(0, std::move(ended));
   SharedMessage message;
   for (int from = 0; !this->Receive(from, message) || message.kind != Kind::Verdict;)
   {
     WaitShortly();
   }
-  return { message.outcome, message.sentence, true };
+  return { message.outcome, message.sentence, {}, true };
 }
 
 void SharedWork::Do(const SharedLoop& loop, const ParallelFor& threads, const Progress& progress)
@@ -215,7 +245,7 @@ void SharedWork::Serve(const SharedLoop& loop, HandOut& items)
   {
     if (request.kind == Kind::Ended)
     {
-      this->Endings[from] = { request.outcome, request.sentence, true };
+      this->Endings[from] = { request.outcome, request.sentence, {}, true };
       throw Error(request.outcome == Outcome::Done ? disagreement : request.sentence);
     }
     if (request.loop != this->Loops || request.count != loop.work.size())

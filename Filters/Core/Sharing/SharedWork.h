@@ -37,6 +37,10 @@ public:
   /// with the sentence of the first process that failed. What others make in loops then ends soon.
   void Together(const std::function<void()>& work);
 
+  /// Waits, within Together, until all processes have come here, so that nothing is written when one of them has
+  /// failed. Returns the notes of the others, in their order, to the first process. Throws as Together does.
+  std::vector<std::string> Agree(std::vector<std::string> notes);
+
   /// Makes all items of a loop; to be called within Together, in all processes alike. Throws Error with the sentence
   /// of the first item that failed, and Aborted.
   void Do(const SharedLoop& loop, const ParallelFor& threads, const Progress& progress);
@@ -46,6 +50,7 @@ private:
   {
     Outcome outcome = Outcome::Done;
     std::string sentence;
+    std::vector<std::string> notes;
     bool isKnown = false;
   };
 
@@ -54,6 +59,7 @@ private:
   void Follow(const SharedLoop& loop, const ParallelFor& threads, const Progress& progress);
   void Serve(const SharedLoop& loop, HandOut& items);
   bool AllWait() const;
+  std::vector<std::string> Settle(const Ending& own);
   Ending Collect(const Ending& own);
   Ending Report(const Ending& own);
   void EndLoops(const std::string& sentence);
@@ -62,6 +68,7 @@ private:
 
   ProcessMessages& Messages;
   std::size_t Loops = 0;
+  bool HaveEnded = false; // with a failure, which all know
   // What the first process knows of the others.
   std::vector<Ending> Endings;
   std::vector<char> AreWaiting; // until a loop ends

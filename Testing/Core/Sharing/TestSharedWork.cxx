@@ -192,6 +192,33 @@ TEST(SharedWork, AFailureOfOneEndsAll)
   }
 }
 
+TEST(SharedWork, NobodyGoesOnWhenOneHasFailed)
+{
+  for (int failing = -1; failing < 3; ++failing)
+  {
+    std::atomic<int> gone{ 0 };
+    std::vector<std::string> notes;
+    const auto ends = RunTogether(3,
+      [&](int rank, SharedWork& shared)
+      {
+        if (rank == failing)
+        {
+          throw Error("One has failed.");
+        }
+        const auto told = shared.Agree({ "Note of " + std::to_string(rank) });
+        ++gone;
+        if (rank == 0)
+        {
+          notes = told;
+        }
+        Squares(20, { SerialFor, &shared });
+      });
+    EXPECT_EQ(ends, AllOf(3, failing < 0 ? "" : "One has failed."));
+    EXPECT_EQ(gone, failing < 0 ? 3 : 0);
+    EXPECT_EQ(notes.size(), failing < 0 ? 2u : 0u);
+  }
+}
+
 TEST(SharedWork, ARequestToStopCountsMoreThanAFailure)
 {
   const auto ends = RunTogether(3,

@@ -17,6 +17,7 @@ MPIEXEC = os.environ.get('FREESPACE_MPIEXEC', '')
 ALLOWED = {'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
            'OMPI_MCA_rmaps_base_oversubscribe': '1'}
 ENVIRONMENT = {**os.environ, **ALLOWED}
+FAST = ('--no-patches',) # half of the time, and nothing that is shared out differently
 
 
 def run(*arguments):
@@ -42,7 +43,7 @@ class TestMpi(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.scene = cls.write_scene('scene.json', SCENE / 'images')
         cls.features, cls.maps = cls.folder / 'features.vtm', cls.folder / 'maps.vtm'
-        run(PROGRAM, 'stereo', cls.scene, '-o', cls.features)
+        run(PROGRAM, 'stereo', cls.scene, *FAST, '-o', cls.features)
         run(PROGRAM, 'triangulate', cls.features, '-o', cls.maps)
 
     @classmethod
@@ -64,21 +65,21 @@ class TestMpi(unittest.TestCase):
                 self.assertEqual(contents(other), contents(one))
 
     def test_features(self):
-        self.expect_the_same(self.features, 'stereo', self.scene)
+        self.expect_the_same(self.features, 'stereo', self.scene, *FAST)
 
     def test_maps(self):
         self.expect_the_same(self.maps, 'triangulate', self.features)
 
     def test_surfaces(self):
-        for number, options in enumerate(((), ('--no-sharp',), ('--observed',))):
+        for number, options in enumerate(((), ('--no-fit', '--no-sharp'), ('--no-fit', '--observed'))):
             one = self.folder / f'surface-{number}.ply'
-            arguments = ('contour', self.maps, '--cells', 100, *options)
+            arguments = ('contour', self.maps, '--cells', 60, *options)
             self.assertEqual(run(PROGRAM, *arguments, '-o', one).returncode, 0)
             self.expect_the_same(one, *arguments, processes=(3,) if options else (2, 3))
 
     def test_all_stages(self):
         one = self.folder / 'whole.ply'
-        arguments = ('reconstruct', self.scene, '--cells', 60)
+        arguments = ('reconstruct', self.scene, *FAST, '--cells', 60, '--no-fit')
         self.assertEqual(run(PROGRAM, *arguments, '-o', one).returncode, 0)
         self.expect_the_same(one, *arguments)
 
@@ -101,7 +102,7 @@ class TestMpi(unittest.TestCase):
         mesh = self.folder / 'mesh.ply'
         self.expect_one_sentence(share(3, 'contour', self.folder / 'nothing.vtm', '-o', mesh), 'nothing.vtm')
         broken = self.scene_with_a_broken_image('broken.json')
-        self.expect_one_sentence(share(3, 'reconstruct', broken, '-o', mesh), 'broken')
+        self.expect_one_sentence(share(3, 'reconstruct', broken, *FAST, '-o', mesh), 'broken')
         self.expect_nothing(mesh)
 
     def test_a_fault_of_the_writing_process(self):
@@ -137,7 +138,7 @@ class TestMpi(unittest.TestCase):
     def test_processes_with_different_options(self):
         """They would wait for each other for ever."""
         output = self.folder / 'never.vtm'
-        one = (PROGRAM, '--threads', 1, 'stereo', self.scene, '-o', output)
+        one = (PROGRAM, '--threads', 1, 'stereo', self.scene, *FAST, '-o', output)
         self.expect_one_sentence(
             run(MPIEXEC, '-n', 1, *one, ':', '-n', 1, *one, '--every-image', 'off'), 'different files or options')
         self.expect_nothing(output)

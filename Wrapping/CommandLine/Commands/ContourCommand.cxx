@@ -39,7 +39,8 @@ void Contour(Session& session, const ContourSettings& settings)
   {
     return;
   }
-  if (const auto surface = settings.contour.Make(session, filter, maps))
+  const auto surface = settings.contour.Make(session, filter, maps);
+  if (session.MayWrite())
   {
     WriteSurface(session, surface, settings.output);
   }

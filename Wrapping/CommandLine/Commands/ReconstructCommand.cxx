@@ -86,7 +86,8 @@ void Reconstruct(Session& session, const ReconstructSettings& settings)
   }
   const auto features = settings.features.Run(session, settings.scene);
   const auto maps = settings.triangulate.Run(session, features);
-  if (const auto surface = settings.contour.Run(session, maps))
+  const auto surface = settings.contour.Run(session, maps);
+  if (session.MayWrite())
   {
     Write(session, surface, settings);
   }

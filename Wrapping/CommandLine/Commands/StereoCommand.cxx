@@ -34,7 +34,7 @@ void FindFeatures(Session& session, const StereoSettings& settings)
     CheckViewsName(settings.output);
   }
   const auto features = settings.stereo.Run(session, settings.scene);
-  if (!session.IsWriter())
+  if (!session.MayWrite())
   {
     return;
   }

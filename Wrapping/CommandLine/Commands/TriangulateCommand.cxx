@@ -31,7 +31,7 @@ void Triangulate(Session& session, const TriangulateSettings& settings)
   }
   const auto features = ReadFeatures(session, settings.features);
   const auto maps = settings.triangulate.Run(session, features);
-  if (session.IsWriter())
+  if (session.MayWrite())
   {
     WriteViews(session, maps, settings.output);
   }

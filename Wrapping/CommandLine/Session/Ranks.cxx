@@ -117,6 +117,11 @@ Ranks::Ranks()
   if (LaunchedCount() > 1)
   {
     this->Others = std::make_unique<Processes>();
+    if (this->Others->Count() != LaunchedCount())
+    {
+      throw Error(
+        "This program was built with another MPI than that of the mpiexec that has started it.");
+    }
     this->Shared = std::make_unique<SharedWork>(*this->Others);
   }
 }

@@ -130,6 +130,19 @@ void Session::RunShared()
   this->Processes = nullptr;
 }
 
+bool Session::MayWrite()
+{
+  if (this->Processes)
+  {
+    for (const std::string& warning : this->Processes->Agree(this->Warnings))
+    {
+      this->TellWarning(warning);
+    }
+    this->ThrowIfStrict();
+  }
+  return this->IsWriter();
+}
+
 bool Session::IsWriter() const
 {
   return !this->Processes || this->Processes->IsFirst();

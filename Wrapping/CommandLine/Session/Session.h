@@ -50,6 +50,10 @@ public:
   /// Whether this process writes the output: the only or the first one.
   bool IsWriter() const;
 
+  /// The same, before anything is written: waits until all processes have come here, and reports the warnings of the
+  /// others. Throws Error when one has failed.
+  bool MayWrite();
+
   /// Updates the algorithm, or a piece of its output, under a stage's name. Throws Error with what the
   /// first error said.
   void Run(vtkAlgorithm* algorithm, const std::string& stage, int piece = 0, int pieces = 1);
