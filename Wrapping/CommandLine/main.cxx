@@ -210,10 +210,9 @@ std::string Fault(
   return what;
 }
 
-int Run(int argc, char* argv[])
+int Run(freespace::Session& session, int argc, char* argv[])
 {
   CLI::App program("Surfaces from calibrated images by feature based stereo.");
-  freespace::Session session;
   std::string configToSave;
   DescribeProgram(program);
   session.AddOptions(program);
@@ -275,9 +274,11 @@ int main(int argc, char* argv[])
     std::cout.rdbuf(nullptr);
     std::cerr.rdbuf(nullptr);
   }
+  freespace::Session
+    session; // to its end processes wait for each other: the error is told before any ends
   try
   {
-    return Run(argc, argv);
+    return Run(session, argc, argv);
   }
   catch (const freespace::Aborted& abort)
   {

@@ -4,10 +4,12 @@ import json
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 SCENE = Path(__file__).resolve().parents[3] / 'Examples' / 'Data' / 'blocks'
@@ -35,6 +37,14 @@ def contents(file):
     return [(piece.name, piece.read_bytes()) for piece in (file, *pieces)]
 
 
+def white_png(width, height):
+    def chunk(kind, data):
+        return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+    rows = zlib.compress((b'\0' + b'\xff' * width) * height)
+    return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)) +
+            chunk(b'IDAT', rows) + chunk(b'IEND', b''))
+
+
 @unittest.skipUnless(Path(MPIEXEC).is_file(), 'built without MPI, or mpiexec is not there')
 class TestMpi(unittest.TestCase):
     @classmethod
@@ -47,9 +57,9 @@ class TestMpi(unittest.TestCase):
         run(PROGRAM, 'triangulate', cls.features, '-o', cls.maps)
 
     @classmethod
-    def write_scene(cls, name, images):
+    def write_scene(cls, name, images, **also):
         scene = json.loads((SCENE / 'scene.json').read_text())
-        scene.update(clusters=scene['clusters'][:1], images=str(images), model=str(SCENE / 'sparse'))
+        scene.update(clusters=scene['clusters'][:1], images=str(images), model=str(SCENE / 'sparse'), **also)
         (cls.folder / name).write_text(json.dumps(scene))
         return cls.folder / name
 
@@ -142,6 +152,25 @@ class TestMpi(unittest.TestCase):
         self.expect_one_sentence(
             run(MPIEXEC, '-n', 1, *one, ':', '-n', 1, *one, '--every-image', 'off'), 'different files or options')
         self.expect_nothing(output)
+
+    def test_a_warning_of_another_process(self):
+        """Is told by the first one; with --strict nothing is written."""
+        masks = self.folder / 'masks'
+        masks.mkdir()
+        (masks / 'cluster1_c.jpg.png').write_bytes(white_png(1134, 756)) # the other images have no mask
+        warning = self.write_scene('masks.json', SCENE / 'images', masks=str(masks))
+        output = self.folder / 'warned.vtm'
+
+        def share_with_warning(*options):
+            one = (PROGRAM, '--threads', 1, *options, 'stereo', '--refine-cameras', 'off', *FAST, '-o', output)
+            return run(MPIEXEC, '-n', 1, *one, self.scene, ':', '-n', 1, *one, warning)
+
+        self.expect_one_sentence(share_with_warning('-q', '--strict'), 'have no mask')
+        self.expect_nothing(output)
+        result = share_with_warning()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count('freespace: warning: '), 1, result.stderr)
+        self.assertIn('have no mask', result.stderr)
 
     def test_a_request_to_stop(self):
         mesh = self.folder / 'stopped.ply'

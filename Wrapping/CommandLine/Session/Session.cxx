@@ -71,6 +71,10 @@ std::vector<std::string> DoWatched(
 
 }
 
+Session::Session() = default;
+
+Session::~Session() = default;
+
 void Session::AddOptions(CLI::App& program)
 {
   program.add_flag("-q,--quiet", this->Quiet, "Print only results and errors");
@@ -119,22 +123,25 @@ void Session::RunCommand()
 
 void Session::RunShared()
 {
-  const Ranks ranks;
-  this->Processes = ranks.Work();
+  this->Processes = std::make_unique<Ranks>();
   const auto action = [this]
   {
     this->Action();
     this->ThrowIfFailed();
   };
-  this->Processes ? this->Processes->Together(action) : action();
-  this->Processes = nullptr;
+  this->Shared() ? this->Shared()->Together(action) : action();
+}
+
+SharedWork* Session::Shared() const
+{
+  return this->Processes ? this->Processes->Work() : nullptr;
 }
 
 bool Session::MayWrite()
 {
-  if (this->Processes)
+  if (this->Shared())
   {
-    for (const std::string& warning : this->Processes->Agree(this->Warnings))
+    for (const std::string& warning : this->Shared()->Agree(this->Warnings))
     {
       this->TellWarning(warning);
     }
@@ -145,7 +152,7 @@ bool Session::MayWrite()
 
 bool Session::IsWriter() const
 {
-  return !this->Processes || this->Processes->IsFirst();
+  return !this->Shared() || this->Shared()->IsFirst();
 }
 
 void Session::Watch(vtkObject* worker, const std::string& stage, const std::function<void()>& work)

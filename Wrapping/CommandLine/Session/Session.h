@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ class vtkWriter;
 namespace freespace
 {
 
+class Ranks;
 class SharedWork;
 
 /// The common part of all commands: the options --quiet, --threads and --strict, and running VTK algorithms so that
@@ -26,6 +28,11 @@ class SharedWork;
 class Session
 {
 public:
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
   /// Adds the shared options to the program.
   void AddOptions(CLI::App& program);
 
@@ -45,7 +52,7 @@ public:
   void RunCommand();
 
   /// While all processes run a command: what they share its work out by, or null where there is one alone.
-  SharedWork* Shared() const { return this->Processes; }
+  SharedWork* Shared() const;
 
   /// Whether this process writes the output: the only or the first one.
   bool IsWriter() const;
@@ -100,7 +107,7 @@ private:
   Choices Chosen;
   int Threads = 0;
   Sharing ActionSharing = Sharing::FirstProcess;
-  SharedWork* Processes = nullptr;
+  std::unique_ptr<Ranks> Processes; // once all run the command
   std::function<void()> Action;
 };
 
