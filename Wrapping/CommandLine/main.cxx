@@ -282,7 +282,10 @@ int main(int argc, char* argv[])
   }
   catch (const freespace::Aborted& abort)
   {
-    Complain(abort.what());
+    if (freespace::IsFirstToTellInterrupt())
+    {
+      Complain(abort.what());
+    }
     return freespace::InterruptStatus();
   }
   catch (const std::exception& error)

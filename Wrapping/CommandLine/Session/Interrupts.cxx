@@ -19,6 +19,7 @@ namespace
 {
 
 std::atomic<int> arrived{ 0 };
+std::atomic<bool> isTold{ false };
 
 // Makes a signal one that is waited for, even if it was ignored, as in background jobs of a shell.
 void Nothing(int) {}
@@ -27,7 +28,7 @@ void Nothing(int) {}
 {
   RemoveWorkFolders();
   constexpr char sentence[] = "freespace: Stopped on request.\n";
-  if (LaunchedRank() == 0 &&
+  if (LaunchedRank() == 0 && IsFirstToTellInterrupt() &&
     write(StderrCapture::RealDescriptor(), sentence, sizeof sentence - 1) < 0)
   {
     // Nothing else can be done.
@@ -66,6 +67,11 @@ void ListenToInterrupts()
 int Interrupt()
 {
   return arrived;
+}
+
+bool IsFirstToTellInterrupt()
+{
+  return !isTold.exchange(true);
 }
 
 int InterruptStatus()

@@ -14,6 +14,9 @@ void ListenToInterrupts();
 /// The signal that came; 0: none.
 int Interrupt();
 
+/// True for the first who asks: who tells that the process was stopped. That can be the thread that waits for signals.
+bool IsFirstToTellInterrupt();
+
 /// The exit status of a process that was stopped by it: 130 for SIGINT, 143 for SIGTERM.
 int InterruptStatus();
 
