@@ -9,8 +9,9 @@ import freespace
 ROOT = Path(__file__).resolve().parents[2]
 HEADERS = sorted(path for folder in ('Filters', 'Readers', 'Writers', 'Rendering')
                  for path in (ROOT / folder).glob('vtk*.h') if '@class' in path.read_text())
-# Macros that declare Set methods, and Set methods that are written out.
-SETTERS = re.compile(r'vtkSet(?:Clamp|Vector[234]|Object|FilePathString)?Macro\(\s*(\w+)|(?:void|virtual void) Set(\w+)\(')
+# Macros that declare Set methods, and Set methods that are written out; those that take a class of the core are for C++.
+SETTERS = re.compile(r'vtkSet(?:Clamp|Vector[234]|Object|FilePathString)?Macro\(\s*(\w+)|'
+                     r'(?:void|virtual void) Set(\w+)\((?!freespace::)')
 
 
 class TestClasses(unittest.TestCase):
