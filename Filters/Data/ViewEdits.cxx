@@ -5,6 +5,7 @@
 #include "Data/ViewBlocks.h"
 
 #include <vtkDataArray.h>
+#include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
