@@ -249,11 +249,6 @@ private:
   std::size_t Vertices = 0, OwnVertices = 0, Triangles = 0;
 };
 
-}
-
-namespace
-{
-
 /// False, with no mesh, for empty bounds. Throws Error where options or bounds are not valid.
 bool IsThereLattice(const AlignedBox3d& bounds, const ContourOptions& options,
   const AllocateContour& allocate, const Progress& progress)

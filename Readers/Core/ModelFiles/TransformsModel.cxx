@@ -121,6 +121,13 @@ SparseCamera CameraOf(const Frame& frame, const fs::path& photograph)
   return camera;
 }
 
+// A pose with or without its last row.
+Eigen::Matrix<double, 3, 4> PoseOf(const JsonNode& matrix)
+{
+  const std::vector<double> m = matrix.Numbers(matrix.Elements().size() == 3 ? 12 : 16);
+  return Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(m.data());
+}
+
 // What nerfstudio has done to the world of the model that it converted.
 struct WorldChange
 {
@@ -137,9 +144,7 @@ WorldChange WorldChangeOf(const JsonNode& file)
     return change;
   }
   const JsonNode matrix = file.At(key);
-  const std::vector<double> m = matrix.Numbers(matrix.Elements().size() == 3 ? 12 : 16);
-  const Eigen::Matrix<double, 3, 4> rows =
-    Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(m.data());
+  const Eigen::Matrix<double, 3, 4> rows = PoseOf(matrix);
   change.rotation = rows.leftCols<3>();
   change.translation = rows.col(3);
   constexpr double rounding = 1e-6;
@@ -165,11 +170,7 @@ SparseModel ReadTransformsModel(const std::string& file)
     const Frame frame(element, root);
     const std::string name = NameOf(element);
     const std::uint32_t camera = model.AddCamera(CameraOf(frame, folder / name));
-    const JsonNode matrix = element.At("transform_matrix");
-    const std::size_t rows = matrix.Elements().size();
-    const std::vector<double> m = matrix.Numbers(rows == 3 ? 12 : 16);
-    const Eigen::Matrix<double, 3, 4> worldFromCamera =
-      Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(m.data());
+    const Eigen::Matrix<double, 3, 4> worldFromCamera = PoseOf(element.At("transform_matrix"));
     const Eigen::Vector3d turn(1, -1, -1); // from y up, looking along -z
     model.AddImage(name, camera,
       turn.asDiagonal() * worldFromCamera.leftCols<3>().transpose() * change.rotation,

@@ -4,6 +4,42 @@
 namespace freespace
 {
 
+namespace
+{
+
+// Matches two sequences in their order: each element of the first with the next equal one of the second.
+template <typename AreSame, typename OnMatch, typename OnGone, typename OnNew>
+void MatchInOrder(int countBefore, int countNow, AreSame&& areSame, OnMatch&& onMatch,
+  OnGone&& onGone, OnNew&& onNew)
+{
+  int next = 0; // of those now that are not matched
+  for (int i = 0; i < countBefore; ++i)
+  {
+    int j = next;
+    while (j < countNow && !areSame(i, j))
+    {
+      ++j;
+    }
+    if (j == countNow)
+    {
+      onGone(i);
+      continue;
+    }
+    onMatch(i, j);
+    for (; next < j; ++next)
+    {
+      onNew(next);
+    }
+    ++next;
+  }
+  for (; next < countNow; ++next)
+  {
+    onNew(next);
+  }
+}
+
+}
+
 UnionChange::UnionChange(
   std::shared_ptr<const FreespaceUnion> before, std::shared_ptr<const FreespaceUnion> now)
   : Before(std::move(before))
@@ -37,30 +73,10 @@ void UnionChange::MatchViews()
     this->Changed.push_back({ &phi.ViewAt(static_cast<std::size_t>(view)), phi.MarginOf(view) });
   };
   this->Now.assign(static_cast<std::size_t>(countBefore), -1);
-  int next = 0; // of those now that are not matched
-  for (int i = 0; i < countBefore; ++i)
-  {
-    int j = next;
-    while (j < countNow && !this->AreSame(i, j))
-    {
-      ++j;
-    }
-    if (j == countNow)
-    {
-      add(*this->Before, i);
-      continue;
-    }
-    this->Now[static_cast<std::size_t>(i)] = j;
-    for (; next < j; ++next)
-    {
-      add(*this->After, next);
-    }
-    ++next;
-  }
-  for (; next < countNow; ++next)
-  {
-    add(*this->After, next);
-  }
+  MatchInOrder(
+    countBefore, countNow, [this](int i, int j) { return this->AreSame(i, j); },
+    [this](int i, int j) { this->Now[static_cast<std::size_t>(i)] = j; },
+    [&](int i) { add(*this->Before, i); }, [&](int j) { add(*this->After, j); });
 }
 
 // In their order, too.
@@ -73,29 +89,10 @@ void UnionChange::MatchPlanes()
     return before.Normal(i) == now.Normal(j) &&
       before.Distance(i, origin) == now.Distance(j, origin);
   };
-  int next = 0;
-  for (int i = 0; i < before.NumberOfPlanes(); ++i)
-  {
-    int j = next;
-    while (j < now.NumberOfPlanes() && !areSame(i, j))
-    {
-      ++j;
-    }
-    if (j == now.NumberOfPlanes())
-    {
-      this->All.planesBefore.push_back(i);
-      continue;
-    }
-    for (; next < j; ++next)
-    {
-      this->All.planesNow.push_back(next);
-    }
-    ++next;
-  }
-  for (; next < now.NumberOfPlanes(); ++next)
-  {
-    this->All.planesNow.push_back(next);
-  }
+  MatchInOrder(
+    before.NumberOfPlanes(), now.NumberOfPlanes(), areSame, [](int, int) {},
+    [this](int i) { this->All.planesBefore.push_back(i); },
+    [this](int j) { this->All.planesNow.push_back(j); });
 }
 
 bool UnionChange::Leaves(
