@@ -151,12 +151,12 @@ double vtkBoardCalibration::GetReprojectionError()
 std::string vtkBoardCalibration::GetText()
 {
   std::string text;
-  for (const freespace::BoardPicture& picture : this->Calibrated->calibration.pictures)
+  for (const freespace::BoardImage& image : this->Calibrated->calibration.images)
   {
-    text += picture.file + ": ";
-    text += picture.used ? std::to_string(picture.corners.ids.size()) + " corners, error " +
-        Format(picture.error) + " pixels\n"
-                         : "not used, " + picture.reason + "\n";
+    text += image.file + ": ";
+    text += image.used ? std::to_string(image.corners.ids.size()) + " corners, error " +
+        Format(image.error) + " pixels\n"
+                       : "not used, " + image.reason + "\n";
   }
   if (this->Calibrated->calibration.hasFormerLayout)
   {

@@ -20,7 +20,7 @@ using namespace freespace;
 namespace
 {
 
-void AddPictures(
+void AddImages(
   vtkBoardCalibration* calibration, const std::string& folder, const std::string& begin)
 {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -53,7 +53,7 @@ TEST(BoardCalibrationOfSharedData, Charuco)
   }
   vtkNew<vtkBoardCalibration> calibration;
   calibration->SetBoard("charuco:15x15:0.03:0.0225:DICT_5X5_250");
-  AddPictures(calibration, data + "/images", "cluster");
+  AddImages(calibration, data + "/images", "cluster");
   TemporaryFolder folder;
   vtkNew<vtkSparseModelWriter> writer;
   writer->SetInputConnection(calibration->GetOutputPort());
@@ -91,7 +91,7 @@ TEST(BoardCalibrationOfSharedData, Chessboard)
   {
     vtkNew<vtkBoardCalibration> calibration;
     calibration->SetBoard("chessboard:9x6:0.025");
-    AddPictures(calibration, data, side);
+    AddImages(calibration, data, side);
     ASSERT_EQ(calibration->GetNumberOfFileNames(), 13);
     TemporaryFolder folder;
     vtkNew<vtkSparseModelWriter> writer;
@@ -115,11 +115,11 @@ TEST(BoardCalibrationReader, BadInput)
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
   EXPECT_TRUE(errors.Has("There are no images to calibrate from."));
-  calibration->AddFileName("/no/such/picture.png");
+  calibration->AddFileName("/no/such/image.png");
   calibration->SetBoard("chessboard:9x6:0.025");
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);
-  EXPECT_TRUE(errors.Has("/no/such/picture.png"));
+  EXPECT_TRUE(errors.Has("/no/such/image.png"));
   calibration->SetBoard("dots:9x6");
   calibration->Update();
   EXPECT_EQ(calibration->GetOutput()->GetNumberOfBlocks(), 0u);

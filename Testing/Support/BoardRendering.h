@@ -17,7 +17,7 @@ namespace freespace
 inline const std::string charucoBoard = "charuco:8x6:0.03:0.0225:DICT_5X5_250";
 inline const std::string chessboardBoard = "chessboard:7x6:0.03";
 
-/// Pictures of a board from known cameras: every pixel averages 4 x 4 rays.
+/// Images of a board from known cameras: every pixel averages 4 x 4 rays.
 class BoardRendering
 {
 public:
@@ -58,9 +58,9 @@ public:
       const Eigen::Vector3d hit = center - center.z() / ray.z() * ray;
       fine.at<uchar>(static_cast<int>(i)) = this->ColorAt(hit);
     }
-    cv::Mat picture;
-    cv::resize(fine, picture, { camera.width, camera.height }, 0, 0, cv::INTER_AREA);
-    return picture;
+    cv::Mat pixels;
+    cv::resize(fine, pixels, { camera.width, camera.height }, 0, 0, cv::INTER_AREA);
+    return pixels;
   }
 
 private:

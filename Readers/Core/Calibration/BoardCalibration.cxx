@@ -33,7 +33,7 @@ void BoardCalibrationOptions::Check() const
 namespace
 {
 
-using Pictures = std::vector<BoardPicture*>;
+using Images = std::vector<BoardImage*>;
 
 // Squares of an even sum of sides look the same when the board is turned by half.
 void CheckTellsItsSides(const Board& board)
@@ -56,11 +56,11 @@ void Detect(const std::vector<std::string>& files, const Board& board,
   ForEach(parallelFor, files.size(),
     [&](std::size_t i)
     {
-      BoardPicture& picture = calibration.pictures[i];
+      BoardImage& image = calibration.images[i];
       const cv::Mat gray = ReadGrayImage(files[i]);
-      picture.file = files[i];
-      picture.image.camera.width = gray.cols;
-      picture.image.camera.height = gray.rows;
+      image.file = files[i];
+      image.calibrated.camera.width = gray.cols;
+      image.calibrated.camera.height = gray.rows;
       detections[i] = DetectLayouts(gray, board);
     });
   int markers = 0, formerMarkers = 0;
@@ -72,23 +72,23 @@ void Detect(const std::vector<std::string>& files, const Board& board,
   calibration.hasFormerLayout = formerMarkers > markers;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
-    BoardPicture& picture = calibration.pictures[i];
-    picture.corners =
+    BoardImage& image = calibration.images[i];
+    image.corners =
       std::move(calibration.hasFormerLayout ? detections[i].formerCorners : detections[i].corners);
-    picture.used = !picture.corners.ids.empty();
-    picture.reason = picture.used ? "" : "the board was not found";
+    image.used = !image.corners.ids.empty();
+    image.reason = image.used ? "" : "the board was not found";
   }
 }
 
 // The images of one size, by the folders that they are in.
-std::vector<Pictures> ByFolder(const Pictures& pictures)
+std::vector<Images> ByFolder(const Images& images)
 {
-  std::map<std::string, Pictures> folders;
-  for (BoardPicture* picture : pictures)
+  std::map<std::string, Images> folders;
+  for (BoardImage* image : images)
   {
-    folders[std::filesystem::path(picture->file).parent_path().string()].push_back(picture);
+    folders[std::filesystem::path(image->file).parent_path().string()].push_back(image);
   }
-  std::vector<Pictures> groups;
+  std::vector<Images> groups;
   for (auto& folder : folders)
   {
     groups.push_back(std::move(folder.second));
@@ -98,23 +98,23 @@ std::vector<Pictures> ByFolder(const Pictures& pictures)
 
 // Whether images of several folders are better explained by a camera for each folder than by one, by the
 // Bayesian information criterion over the corners that fit the folders' own cameras.
-bool HaveOwnCameras(const std::vector<Pictures>& folders, const BoardCalibrationOptions& options,
+bool HaveOwnCameras(const std::vector<Images>& folders, const BoardCalibrationOptions& options,
   const ParallelFor& parallelFor)
 {
-  std::vector<BoardPicture> copies;
-  for (const Pictures& folder : folders)
+  std::vector<BoardImage> copies;
+  for (const Images& folder : folders)
   {
-    for (const BoardPicture* picture : folder)
+    for (const BoardImage* image : folder)
     {
-      copies.push_back(*picture);
+      copies.push_back(*image);
     }
   }
   CameraFit apart;
-  Pictures all;
+  Images all;
   std::size_t next = 0;
-  for (const Pictures& folder : folders)
+  for (const Images& folder : folders)
   {
-    Pictures own;
+    Images own;
     for (std::size_t i = 0; i < folder.size(); ++i)
     {
       own.push_back(&copies[next++]);
@@ -126,17 +126,17 @@ bool HaveOwnCameras(const std::vector<Pictures>& folders, const BoardCalibration
     apart.corners += fit.corners;
     apart.parameters += fit.parameters;
     std::copy_if(own.begin(), own.end(), std::back_inserter(all),
-      [](const BoardPicture* picture) { return picture->used; });
+      [](const BoardImage* image) { return image->used; });
   }
   const CameraFit together = CameraCalibration(all, options, parallelFor).Summary();
   return apart.Criterion() < together.Criterion();
 }
 
 // All images of one size are of one camera, unless those of different folders are clearly of several.
-std::vector<Pictures> CamerasOf(
-  const Pictures& pictures, const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
+std::vector<Images> CamerasOf(
+  const Images& images, const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
 {
-  std::vector<Pictures> folders = ByFolder(pictures);
+  std::vector<Images> folders = ByFolder(images);
   try
   {
     if (folders.size() > 1 && HaveOwnCameras(folders, options, parallelFor))
@@ -148,7 +148,7 @@ std::vector<Pictures> CamerasOf(
   {
     // A folder does not determine a camera by itself.
   }
-  return { pictures };
+  return { images };
 }
 
 }
@@ -159,15 +159,15 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
   options.Check();
   CheckTellsItsSides(options.board);
   BoardCalibration calibration;
-  calibration.pictures.resize(files.size());
+  calibration.images.resize(files.size());
   Detect(files, options.board, parallelFor, calibration);
   progress(0.5);
-  std::map<std::pair<int, int>, Pictures> sizes;
-  for (BoardPicture& picture : calibration.pictures)
+  std::map<std::pair<int, int>, Images> sizes;
+  for (BoardImage& image : calibration.images)
   {
-    if (picture.used)
+    if (image.used)
     {
-      sizes[{ picture.image.camera.width, picture.image.camera.height }].push_back(&picture);
+      sizes[{ image.calibrated.camera.width, image.calibrated.camera.height }].push_back(&image);
     }
   }
   if (sizes.empty())
@@ -175,10 +175,10 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
     throw Error("Cannot calibrate: the board was found in none of " + std::to_string(files.size()) +
       " images.");
   }
-  std::vector<Pictures> cameras;
+  std::vector<Images> cameras;
   for (const auto& size : sizes)
   {
-    for (Pictures& camera : CamerasOf(size.second, options, parallelFor))
+    for (Images& camera : CamerasOf(size.second, options, parallelFor))
     {
       cameras.push_back(std::move(camera));
     }
@@ -196,16 +196,16 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
     catch (const Error& error)
     {
       fault = error.what();
-      for (BoardPicture* picture : cameras[i])
+      for (BoardImage* image : cameras[i])
       {
-        picture->used = false;
-        picture->reason =
-          picture->reason.empty() ? "its camera could not be calibrated" : picture->reason;
+        image->used = false;
+        image->reason =
+          image->reason.empty() ? "its camera could not be calibrated" : image->reason;
       }
     }
-    for (BoardPicture* picture : cameras[i])
+    for (BoardImage* image : cameras[i])
     {
-      picture->cameraIndex = static_cast<int>(i);
+      image->cameraIndex = static_cast<int>(i);
     }
   }
   if (calibrated == 0)
@@ -214,10 +214,10 @@ BoardCalibration CalibrateFromBoard(const std::vector<std::string>& files,
   }
   double squares = 0;
   std::size_t corners = 0;
-  for (const BoardPicture& picture : calibration.pictures)
+  for (const BoardImage& image : calibration.images)
   {
-    const std::size_t own = picture.used ? picture.corners.ids.size() : 0;
-    squares += picture.error * picture.error * static_cast<double>(own);
+    const std::size_t own = image.used ? image.corners.ids.size() : 0;
+    squares += image.error * image.error * static_cast<double>(own);
     corners += own;
   }
   calibration.error = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(corners, 1)));

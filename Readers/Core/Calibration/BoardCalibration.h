@@ -28,24 +28,24 @@ struct BoardCalibrationOptions
 };
 
 /// The result for one image.
-struct BoardPicture
+struct BoardImage
 {
-  std::string file;      ///< path of the image
-  bool used = false;     ///< whether the board was found and its pose was computed
-  std::string reason;    ///< why not, as a clause
-  BoardCorners corners;  ///< the inliers
-  double error = 0;      ///< of their reprojection, root mean square in pixels
-  CalibratedImage image; ///< its camera in the frame of BoardPoints
-  int cameraIndex = 0;   ///< images of one camera have the same
+  std::string file;           ///< path of the image
+  bool used = false;          ///< whether the board was found and its pose was computed
+  std::string reason;         ///< why not, as a clause
+  BoardCorners corners;       ///< the inliers
+  double error = 0;           ///< of their reprojection, root mean square in pixels
+  CalibratedImage calibrated; ///< its camera in the frame of BoardPoints
+  int cameraIndex = 0;        ///< images of one camera have the same
 };
 
 /// The result of a calibration. All images of one size are of one camera, unless those of several folders
 /// are clearly of a camera for each.
 struct BoardCalibration
 {
-  std::vector<BoardPicture> pictures; ///< in the order of the files
-  bool hasFormerLayout = false;       ///< of a ChArUco board, see BoardDetection
-  double error = 0;                   ///< of all corners, root mean square in pixels
+  std::vector<BoardImage> images; ///< in the order of the files
+  bool hasFormerLayout = false;   ///< of a ChArUco board, see BoardDetection
+  double error = 0;               ///< of all corners, root mean square in pixels
 
   /// The used images as a sparse model whose points are the corners of the board. Images are named by
   /// their path relative to the folder.

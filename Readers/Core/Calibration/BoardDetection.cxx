@@ -337,10 +337,10 @@ BoardCorners FindBoardCorners(const cv::Mat& gray, const Board& board, const Cal
   return corners;
 }
 
-cv::Mat DrawBoardCorners(const cv::Mat& picture, const BoardCorners& corners)
+cv::Mat DrawBoardCorners(const cv::Mat& image, const BoardCorners& corners)
 {
-  cv::Mat drawn = picture.clone();
-  const int size = std::max(3, std::max(picture.cols, picture.rows) / 250);
+  cv::Mat drawn = image.clone();
+  const int size = std::max(3, std::max(image.cols, image.rows) / 250);
   constexpr int shift = 4; // fractional bits of the drawing functions
   for (std::size_t i = 0; i < corners.ids.size(); ++i)
   {

@@ -46,7 +46,7 @@ BoardCorners FindBoardCorners(
   const cv::Mat& gray, const Board& board, const CalibratedImage& image);
 
 /// The image with the corners drawn over it.
-cv::Mat DrawBoardCorners(const cv::Mat& picture, const BoardCorners& corners);
+cv::Mat DrawBoardCorners(const cv::Mat& image, const BoardCorners& corners);
 
 }
 

@@ -32,27 +32,27 @@ void WriteBoardPictures(const BoardCalibration& calibration, const std::string& 
   std::error_code ignored;
   fs::create_directory(folder, ignored);
   std::vector<std::string> files;
-  for (const BoardPicture& picture : calibration.pictures)
+  for (const BoardImage& image : calibration.images)
   {
-    files.push_back(picture.file);
+    files.push_back(image.file);
   }
   const std::vector<std::string> names = DistinctFileNames(files);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    const BoardPicture& picture = calibration.pictures[i];
-    if (!picture.used)
+    const BoardImage& image = calibration.images[i];
+    if (!image.used)
     {
       continue;
     }
     const fs::path target = fs::path(folder) / (names[i] + ".jpg");
-    const cv::Mat pixels = DecodeImage(picture.file, true);
+    const cv::Mat pixels = DecodeImage(image.file, true);
     if (pixels.empty())
     {
-      throw Error("Cannot read the image " + picture.file + " again.");
+      throw Error("Cannot read the image " + image.file + " again.");
     }
     AtomicOutput output(target.string());
     const std::vector<std::uint8_t> jpeg =
-      EncodeImage(".jpg", DrawBoardCorners(pixels, picture.corners));
+      EncodeImage(".jpg", DrawBoardCorners(pixels, image.corners));
     output.Write(jpeg.data(), jpeg.size());
     output.Commit();
   }

@@ -46,29 +46,29 @@ SparseModel BoardCalibration::Model(const Board& board, const std::string& folde
     points[i].position = BoardPoints(board)[i];
   }
   std::map<int, std::uint32_t> cameras;
-  for (const BoardPicture& picture : this->pictures)
+  for (const BoardImage& image : this->images)
   {
-    if (!picture.used)
+    if (!image.used)
     {
       continue;
     }
     const auto next = static_cast<std::uint32_t>(cameras.size() + 1);
-    const auto [camera, isNew] = cameras.emplace(picture.cameraIndex, next);
+    const auto [camera, isNew] = cameras.emplace(image.cameraIndex, next);
     if (isNew)
     {
-      model.cameras.push_back(LensOf(picture.image, next));
+      model.cameras.push_back(LensOf(image.calibrated, next));
     }
-    SparseImage image = PoseOf(picture.image.camera);
-    image.id = static_cast<std::uint32_t>(model.images.size() + 1);
-    image.camera = camera->second;
-    image.name = fs::proximate(fs::absolute(picture.file), fs::absolute(folder)).string();
-    for (std::size_t k = 0; k < picture.corners.ids.size(); ++k)
+    SparseImage posed = PoseOf(image.calibrated.camera);
+    posed.id = static_cast<std::uint32_t>(model.images.size() + 1);
+    posed.camera = camera->second;
+    posed.name = fs::proximate(fs::absolute(image.file), fs::absolute(folder)).string();
+    for (std::size_t k = 0; k < image.corners.ids.size(); ++k)
     {
-      SparsePoint& point = points[static_cast<std::size_t>(picture.corners.ids[k])];
-      point.track.push_back({ image.id, static_cast<std::uint32_t>(k) });
-      image.observations.push_back({ picture.corners.pixels[k], point.id });
+      SparsePoint& point = points[static_cast<std::size_t>(image.corners.ids[k])];
+      point.track.push_back({ posed.id, static_cast<std::uint32_t>(k) });
+      posed.observations.push_back({ image.corners.pixels[k], point.id });
     }
-    model.images.push_back(std::move(image));
+    model.images.push_back(std::move(posed));
   }
   for (SparsePoint& point : points)
   {

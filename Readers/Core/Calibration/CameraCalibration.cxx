@@ -32,13 +32,14 @@ double CameraFit::Criterion() const
   return n * std::log(std::max(this->squares, 1e-20) / n) + this->parameters * std::log(n);
 }
 
-CameraCalibration::CameraCalibration(std::vector<BoardPicture*> pictures,
+CameraCalibration::CameraCalibration(std::vector<BoardImage*> images,
   const BoardCalibrationOptions& options, const ParallelFor& parallelFor)
-  : Pictures(std::move(pictures))
+  : Images(std::move(images))
   , Options(options)
   , Points(BoardPoints(options.board))
   , For(parallelFor)
-  , Size(this->Pictures.front()->image.camera.width, this->Pictures.front()->image.camera.height)
+  , Size(
+      this->Images.front()->calibrated.camera.width, this->Images.front()->calibrated.camera.height)
 {
 }
 
@@ -77,15 +78,15 @@ CameraCalibration::Fit CameraCalibration::Calibrate(int coefficients) const
 {
   std::vector<std::vector<cv::Point3f>> world;
   std::vector<std::vector<cv::Point2f>> seen;
-  for (const BoardPicture* picture : this->Pictures)
+  for (const BoardImage* image : this->Images)
   {
     auto& worldPoints = world.emplace_back();
     auto& pixels = seen.emplace_back();
-    for (std::size_t i = 0; i < picture->corners.ids.size(); ++i)
+    for (std::size_t i = 0; i < image->corners.ids.size(); ++i)
     {
       const Eigen::Vector3f point =
-        this->Points[static_cast<std::size_t>(picture->corners.ids[i])].cast<float>();
-      const Eigen::Vector2d& pixel = picture->corners.pixels[i];
+        this->Points[static_cast<std::size_t>(image->corners.ids[i])].cast<float>();
+      const Eigen::Vector2d& pixel = image->corners.pixels[i];
       worldPoints.emplace_back(point.x(), point.y(), point.z());
       pixels.emplace_back(static_cast<float>(pixel.x() - 0.5), static_cast<float>(pixel.y() - 0.5));
     }
@@ -150,14 +151,14 @@ void CameraCalibration::DropOutliers(int coefficients)
 {
   for (int round = 0; round < 20; ++round)
   {
-    this->DropPictures();
+    this->DropImages();
     const Fit fit = this->Calibrate(coefficients);
     // An error below a hundredth of a pixel is never an outlier.
     const double limit = this->Options.outlierThreshold * std::max(Deviation(fit), 0.01);
     std::size_t dropped = 0;
-    for (std::size_t i = 0; i < this->Pictures.size(); ++i)
+    for (std::size_t i = 0; i < this->Images.size(); ++i)
     {
-      dropped += Keep(this->Pictures[i]->corners, fit.errors[i], limit);
+      dropped += Keep(this->Images[i]->corners, fit.errors[i], limit);
     }
     this->Store(fit);
     if (dropped == 0)
@@ -186,23 +187,23 @@ std::size_t CameraCalibration::Keep(
 }
 
 // Drops the images in which too few corners are left.
-void CameraCalibration::DropPictures()
+void CameraCalibration::DropImages()
 {
-  const auto isPoor = [&](BoardPicture* picture)
+  const auto isPoor = [&](BoardImage* image)
   {
-    if (static_cast<int>(picture->corners.ids.size()) >= this->Options.minimumCorners &&
-      !this->AreCollinear(picture->corners))
+    if (static_cast<int>(image->corners.ids.size()) >= this->Options.minimumCorners &&
+      !this->AreCollinear(image->corners))
     {
       return false;
     }
-    picture->used = false;
-    picture->reason = "only " + std::to_string(picture->corners.ids.size()) +
+    image->used = false;
+    image->reason = "only " + std::to_string(image->corners.ids.size()) +
       " corners of the board were found, or all in one line";
     return true;
   };
-  this->Pictures.erase(
-    std::remove_if(this->Pictures.begin(), this->Pictures.end(), isPoor), this->Pictures.end());
-  if (this->Pictures.size() < 3)
+  this->Images.erase(
+    std::remove_if(this->Images.begin(), this->Images.end(), isPoor), this->Images.end());
+  if (this->Images.size() < 3)
   {
     throw Error("Cannot calibrate: the board was found in fewer than three images of " +
       std::to_string(this->Size.width) + " x " + std::to_string(this->Size.height) + " pixels.");
@@ -223,12 +224,12 @@ bool CameraCalibration::AreCollinear(const BoardCorners& corners) const
 
 void CameraCalibration::FindCorners()
 {
-  ForEach(this->For, this->Pictures.size(),
+  ForEach(this->For, this->Images.size(),
     [this](std::size_t i)
     {
-      BoardPicture& picture = *this->Pictures[i];
-      picture.corners =
-        FindBoardCorners(ReadGrayImage(picture.file), this->Options.board, picture.image);
+      BoardImage& image = *this->Images[i];
+      image.corners =
+        FindBoardCorners(ReadGrayImage(image.file), this->Options.board, image.calibrated);
     });
 }
 
@@ -257,10 +258,10 @@ CameraCalibration::Fit CameraCalibration::BestFit() const
 // Stores the fit in the cameras of the images.
 void CameraCalibration::Store(const Fit& fit)
 {
-  for (std::size_t i = 0; i < this->Pictures.size(); ++i)
+  for (std::size_t i = 0; i < this->Images.size(); ++i)
   {
-    BoardPicture& picture = *this->Pictures[i];
-    Camera& camera = picture.image.camera;
+    BoardImage& image = *this->Images[i];
+    Camera& camera = image.calibrated.camera;
     cv::Matx33d rotation;
     cv::Rodrigues(fit.rotations[i], rotation);
     for (int k = 0; k < 9; ++k)
@@ -274,17 +275,17 @@ void CameraCalibration::Store(const Fit& fit)
     {
       camera.t[k] = fit.translations[i].at<double>(k);
     }
-    picture.image.distortion = fit.distortion;
+    image.calibrated.distortion = fit.distortion;
     if (CountCoefficients(fit.distortion) == 0)
     {
-      picture.image.distortion.clear();
+      image.calibrated.distortion.clear();
     }
     double squares = 0;
     for (double error : fit.errors[i])
     {
       squares += error * error;
     }
-    picture.error = std::sqrt(squares / std::max<std::size_t>(fit.errors[i].size(), 1));
+    image.error = std::sqrt(squares / std::max<std::size_t>(fit.errors[i].size(), 1));
   }
 }
 

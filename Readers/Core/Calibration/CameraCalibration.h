@@ -30,7 +30,7 @@ class CameraCalibration
 {
 public:
   /// The images have the same size and corners. Keeps references to the images and the options.
-  CameraCalibration(std::vector<BoardPicture*> pictures, const BoardCalibrationOptions& options,
+  CameraCalibration(std::vector<BoardImage*> images, const BoardCalibrationOptions& options,
     const ParallelFor& parallelFor);
 
   /// Stores the camera, the pose, the corners that fit and their error in each image; marks the
@@ -58,13 +58,13 @@ private:
   static double Deviation(const Fit& fit);
   void DropOutliers(int coefficients);
   static std::size_t Keep(BoardCorners& corners, const std::vector<double>& errors, double limit);
-  void DropPictures();
+  void DropImages();
   bool AreCollinear(const BoardCorners& corners) const;
   void FindCorners();
   Fit BestFit() const;
   void Store(const Fit& fit);
 
-  std::vector<BoardPicture*> Pictures;
+  std::vector<BoardImage*> Images;
   const BoardCalibrationOptions& Options;
   std::vector<Eigen::Vector3d> Points;
   const ParallelFor& For;

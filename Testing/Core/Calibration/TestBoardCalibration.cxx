@@ -43,17 +43,17 @@ std::vector<std::string> RenderAll(const TemporaryFolder& folder, const std::str
   std::vector<std::string> files;
   for (std::size_t i = 0; i < cameras.size(); ++i)
   {
-    cv::Mat picture = rendering.Render(cameras[i]);
-    cv::Mat noise(picture.size(), CV_16S);
+    cv::Mat image = rendering.Render(cameras[i]);
+    cv::Mat noise(image.size(), CV_16S);
     cv::theRNG().state = 5 + i;
     cv::randn(noise, 0, 2);
-    cv::add(picture, noise, picture, cv::noArray(), CV_8U);
+    cv::add(image, noise, image, cv::noArray(), CV_8U);
     if (hidePart)
     {
-      cv::rectangle(picture, { 180 + 10 * static_cast<int>(i), 120, 90, 110 }, { 90 }, cv::FILLED);
+      cv::rectangle(image, { 180 + 10 * static_cast<int>(i), 120, 90, 110 }, { 90 }, cv::FILLED);
     }
-    files.push_back(folder.Path(subfolder + "picture" + std::to_string(i) + ".png"));
-    cv::imwrite(files.back(), picture);
+    files.push_back(folder.Path(subfolder + "image" + std::to_string(i) + ".png"));
+    cv::imwrite(files.back(), image);
   }
   return files;
 }
@@ -67,18 +67,18 @@ BoardCalibration Calibrate(const std::vector<std::string>& files, const std::str
 
 void ExpectCameras(const BoardCalibration& calibration, const std::vector<CalibratedImage>& truth)
 {
-  ASSERT_EQ(calibration.pictures.size(), truth.size());
+  ASSERT_EQ(calibration.images.size(), truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
-    const BoardPicture& picture = calibration.pictures[i];
-    ASSERT_TRUE(picture.used) << picture.reason;
-    const Camera& camera = picture.image.camera;
+    const BoardImage& image = calibration.images[i];
+    ASSERT_TRUE(image.used) << image.reason;
+    const Camera& camera = image.calibrated.camera;
     EXPECT_NEAR(camera.K(0, 0) / 560, 1, 0.002);
     EXPECT_NEAR(camera.K(1, 1) / 560, 1, 0.002);
     EXPECT_NEAR(camera.K(0, 2), 246.5, 1);
     EXPECT_NEAR(camera.K(1, 2), 176, 1);
     EXPECT_LT((camera.Center() - truth[i].camera.Center()).norm(), 0.001);
-    EXPECT_LT(picture.error, 0.1);
+    EXPECT_LT(image.error, 0.1);
   }
 }
 
@@ -122,7 +122,7 @@ TEST(BoardCalibration, CharucoThatIsPartlyHidden)
   const BoardCalibration calibration =
     Calibrate(RenderAll(folder, charucoBoard, truth, true), charucoBoard);
   ExpectCameras(calibration, truth);
-  EXPECT_TRUE(calibration.pictures[0].image.distortion.empty()) << "there is none";
+  EXPECT_TRUE(calibration.images[0].calibrated.distortion.empty()) << "there is none";
   EXPECT_LT(calibration.error, 0.08);
 }
 
@@ -133,9 +133,9 @@ TEST(BoardCalibration, DistortionIsFound)
   const BoardCalibration calibration =
     Calibrate(RenderAll(folder, charucoBoard, truth, false), charucoBoard);
   ExpectCameras(calibration, truth);
-  const std::vector<double>& distortion = calibration.pictures[0].image.distortion;
+  const std::vector<double>& distortion = calibration.images[0].calibrated.distortion;
   ASSERT_GE(distortion.size(), 4u);
-  // At the edge of the picture, where it counts.
+  // At the edge of the image, where it counts.
   const double r2 = 0.25;
   EXPECT_NEAR(distortion[0] * r2 + distortion[1] * r2 * r2, -0.2 * r2 + 0.05 * r2 * r2, 0.003);
 }
@@ -150,12 +150,12 @@ TEST(BoardCalibration, Chessboard)
   }
   const BoardCalibration calibration =
     Calibrate(RenderAll(folder, chessboardBoard, truth, false), chessboardBoard);
-  ASSERT_EQ(calibration.pictures.size(), truth.size());
-  for (const BoardPicture& picture : calibration.pictures)
+  ASSERT_EQ(calibration.images.size(), truth.size());
+  for (const BoardImage& image : calibration.images)
   {
-    ASSERT_TRUE(picture.used) << picture.reason;
-    EXPECT_GE(picture.corners.ids.size(), 40u) << "of 7 x 6; an outlier may be dropped";
-    EXPECT_NEAR(picture.image.camera.K(0, 0) / 560, 1, 0.002);
+    ASSERT_TRUE(image.used) << image.reason;
+    EXPECT_GE(image.corners.ids.size(), 40u) << "of 7 x 6; an outlier may be dropped";
+    EXPECT_NEAR(image.calibrated.camera.K(0, 0) / 560, 1, 0.002);
   }
 }
 
@@ -179,7 +179,7 @@ TEST(BoardCalibration, FormerLayoutOfCharuco)
   EXPECT_FALSE(Calibrate(RenderAll(folder, text, truth, false), text).hasFormerLayout);
 }
 
-// Pictures of two folders with the same names and size, of lenses of 560 and 616 pixels.
+// Images of two folders with the same names and size, of lenses of 560 and 616 pixels.
 TEST(BoardCalibration, TwoCamerasOfOneSize)
 {
   TemporaryFolder folder;
@@ -216,7 +216,7 @@ TEST(BoardCalibration, OneCameraInTwoFolders)
     1u);
 }
 
-TEST(BoardCalibration, PictureWithoutABoardIsLeftOut)
+TEST(BoardCalibration, ImageWithoutABoardIsLeftOut)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
@@ -224,9 +224,9 @@ TEST(BoardCalibration, PictureWithoutABoardIsLeftOut)
   files.insert(files.begin() + 1, folder.Path("empty.png"));
   cv::imwrite(files[1], cv::Mat(360, 480, CV_8U, cv::Scalar(128)));
   BoardCalibration calibration = Calibrate(files, charucoBoard);
-  EXPECT_FALSE(calibration.pictures[1].used);
-  EXPECT_FALSE(calibration.pictures[1].reason.empty());
-  calibration.pictures.erase(calibration.pictures.begin() + 1);
+  EXPECT_FALSE(calibration.images[1].used);
+  EXPECT_FALSE(calibration.images[1].reason.empty());
+  calibration.images.erase(calibration.images.begin() + 1);
   ExpectCameras(calibration, truth);
 }
 
@@ -240,7 +240,7 @@ TEST(BoardCalibration, ModelHoldsCamerasAndCorners)
   ASSERT_EQ(model.cameras.size(), 1u);
   EXPECT_EQ(model.cameras[0].model, LensModel::SimplePinhole);
   ASSERT_EQ(model.images.size(), truth.size());
-  EXPECT_EQ(model.images[1].name, "picture1.png");
+  EXPECT_EQ(model.images[1].name, "image1.png");
   EXPECT_EQ(model.points.size(), 35u);
   const std::vector<CalibratedImage> images = CalibratedImages(model);
   const SparseTracks tracks(model);
@@ -261,11 +261,11 @@ TEST(BoardCalibration, AnnotatedPictures)
   const std::vector<std::string> files = RenderAll(folder, charucoBoard, Cameras({}), false);
   const BoardCalibration calibration = Calibrate(files, charucoBoard);
   WriteBoardPictures(calibration, folder.Path("boards"));
-  const cv::Mat drawn = cv::imread(folder.Path("boards/picture0.jpg"));
+  const cv::Mat drawn = cv::imread(folder.Path("boards/image0.jpg"));
   ASSERT_EQ(drawn.cols, 480);
   // Each corner has a red ring around it, which is not lost in the JPEG.
   const cv::Mat inside = drawn(cv::Rect(8, 8, drawn.cols - 16, drawn.rows - 16));
-  for (const Eigen::Vector2d& pixel : calibration.pictures[0].corners.pixels)
+  for (const Eigen::Vector2d& pixel : calibration.images[0].corners.pixels)
   {
     if (!cv::Rect(16, 16, drawn.cols - 32, drawn.rows - 32)
            .contains(cv::Point(pixel.x(), pixel.y())))
@@ -284,7 +284,7 @@ TEST(BoardCalibration, AnnotatedPictures)
   EXPECT_THROW(WriteBoardPictures(calibration, "/no/such/folder/boards"), Error);
 }
 
-TEST(BoardCalibration, TooFewPictures)
+TEST(BoardCalibration, TooFewImages)
 {
   TemporaryFolder folder;
   std::vector<CalibratedImage> two = Cameras({});
@@ -294,8 +294,8 @@ TEST(BoardCalibration, TooFewPictures)
   ExpectError([&]() { Calibrate({}, charucoBoard); }, { "none of 0" });
 }
 
-// Two pictures of another camera do not spoil the others.
-TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
+// Two images of another camera do not spoil the others.
+TEST(BoardCalibration, ImagesOfAnotherSizeThatAreTooFew)
 {
   TemporaryFolder folder;
   const std::vector<CalibratedImage> truth = Cameras({});
@@ -310,15 +310,15 @@ TEST(BoardCalibration, PicturesOfAnotherSizeThatAreTooFew)
   BoardCalibration calibration = Calibrate(files, charucoBoard);
   for (std::size_t i = truth.size(); i < files.size(); ++i)
   {
-    EXPECT_FALSE(calibration.pictures[i].used);
-    EXPECT_FALSE(calibration.pictures[i].reason.empty());
+    EXPECT_FALSE(calibration.images[i].used);
+    EXPECT_FALSE(calibration.images[i].reason.empty());
   }
-  calibration.pictures.resize(truth.size());
+  calibration.images.resize(truth.size());
   ExpectCameras(calibration, truth);
 }
 
-// The same picture again and again tells nothing more: a camera or an error, but no crash.
-TEST(BoardCalibration, OnePictureThreeTimes)
+// The same image again and again tells nothing more: a camera or an error, but no crash.
+TEST(BoardCalibration, OneImageThreeTimes)
 {
   TemporaryFolder folder;
   std::vector<CalibratedImage> one = Cameras({});
@@ -335,12 +335,12 @@ TEST(BoardCalibration, OnePictureThreeTimes)
   }
 }
 
-TEST(BoardCalibration, PictureThatIsMissingOrNone)
+TEST(BoardCalibration, ImageThatIsMissingOrNone)
 {
   TemporaryFolder folder;
   ExpectError(
     [&]() { Calibrate({ folder.Path("missing.png") }, charucoBoard); }, { "missing.png" });
-  const std::string text = folder.Write("text.png", "this is no picture");
+  const std::string text = folder.Write("text.png", "this is no image");
   ExpectError([&]() { Calibrate({ text }, charucoBoard); }, { "text.png" });
 }
 

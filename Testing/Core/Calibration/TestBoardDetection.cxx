@@ -99,9 +99,9 @@ TEST(BoardDetection, CornersAreExact)
   {
     const Board board = BoardFromText(text);
     const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
-    const cv::Mat picture = BoardRendering(board).Render(camera);
-    const BoardCorners detected = DetectBoard(picture, board);
-    const BoardCorners corners = FindBoardCorners(picture, board, camera);
+    const cv::Mat image = BoardRendering(board).Render(camera);
+    const BoardCorners detected = DetectBoard(image, board);
+    const BoardCorners corners = FindBoardCorners(image, board, camera);
     const std::vector<Eigen::Vector3d> points = BoardPoints(board);
     EXPECT_GE(detected.ids.size(), points.size() - 2) << "a marker may be missed";
     EXPECT_GE(corners.ids.size(), points.size() - 2);
@@ -123,10 +123,10 @@ TEST(BoardDetection, HiddenCornersAreNotFound)
 {
   const Board board = BoardFromText(charucoBoard);
   const CalibratedImage camera = BoardCamera(20, 15, 10, 0.35);
-  cv::Mat picture = BoardRendering(board).Render(camera);
+  cv::Mat image = BoardRendering(board).Render(camera);
   const cv::Rect hidden(150, 100, 120, 120);
-  cv::rectangle(picture, hidden, { 120 }, cv::FILLED);
-  const BoardCorners corners = FindBoardCorners(picture, board, camera);
+  cv::rectangle(image, hidden, { 120 }, cv::FILLED);
+  const BoardCorners corners = FindBoardCorners(image, board, camera);
   const std::vector<Eigen::Vector3d> points = BoardPoints(board);
   ExpectAllFound(corners, camera, points, hidden);
   for (std::size_t i = 0; i < corners.ids.size(); ++i)
@@ -149,8 +149,8 @@ TEST(BoardDetection, CornersOfRandomCamerasAreExact)
   {
     const CalibratedImage camera =
       BoardCamera(angle(random), angle(random), roll(random), distance(random));
-    const cv::Mat picture = rendering.Render(camera);
-    const BoardCorners corners = FindBoardCorners(picture, board, camera);
+    const cv::Mat image = rendering.Render(camera);
+    const BoardCorners corners = FindBoardCorners(image, board, camera);
     ExpectAllFound(corners, camera, points, {});
     for (std::size_t i = 0; i < corners.ids.size(); ++i)
     {

@@ -20,7 +20,7 @@ namespace
 
 struct CalibrateSettings
 {
-  std::vector<std::string> pictures;
+  std::vector<std::string> images;
   std::string board;
   std::string output;
   int coefficients = BoardCalibrationOptions().maximumCoefficients;
@@ -29,7 +29,7 @@ struct CalibrateSettings
 
 void AddOptions(CLI::App& command, CalibrateSettings& settings)
 {
-  command.add_option("images", settings.pictures, "Images of the board")
+  command.add_option("images", settings.images, "Images of the board")
     ->required()
     ->type_name("IMAGES");
   command
@@ -52,9 +52,9 @@ void AddOptions(CLI::App& command, CalibrateSettings& settings)
 void Calibrate(Session& session, const CalibrateSettings& settings)
 {
   vtkNew<vtkBoardCalibration> calibration;
-  for (const std::string& picture : settings.pictures)
+  for (const std::string& image : settings.images)
   {
-    calibration->AddFileName(picture);
+    calibration->AddFileName(image);
   }
   calibration->SetBoard(settings.board);
   calibration->SetMaximumCoefficients(settings.coefficients);
