@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a triplet of the blocks scene costs, from decoded pictures to matches (edges of three images
+// What a triplet of the blocks scene costs, from decoded images to matches (edges of three images
 // and their matching), beside OpenCV's StereoSGBM (MODE_SGBM_3WAY) on the rectified colour pair of its
 // reference and left image: the same disparity range, one thread each, taken in turn. SGBM is spared
 // the rectification, ours works without. The counter `ratio` is ours / SGBM's.
@@ -37,14 +37,14 @@ using namespace freespace;
 namespace
 {
 
-struct Picture
+struct CameraImage
 {
   Camera camera;
   cv::Mat pixels;
 };
 
-// The pictures of the first cluster's first triplets: the reference, then the others in pairs.
-std::vector<Picture> ReadPictures(const std::string& sceneFile, int triplets)
+// The images of the first cluster's first triplets: the reference, then the others in pairs.
+std::vector<CameraImage> ReadImages(const std::string& sceneFile, int triplets)
 {
   const Scene scene = ReadScene(sceneFile);
   const Cluster& cluster = scene.clusters.at(0);
@@ -54,19 +54,19 @@ std::vector<Picture> ReadPictures(const std::string& sceneFile, int triplets)
     files.push_back(cluster.triplets.at(i)[0]);
     files.push_back(cluster.triplets.at(i)[2]);
   }
-  std::vector<Picture> pictures;
-  const std::vector<CalibratedImage> images = ReadSceneImages(scene);
+  std::vector<CameraImage> read;
+  const std::vector<CalibratedImage> calibrated = ReadSceneImages(scene);
   for (const std::string& file : files)
   {
-    const auto image = std::find_if(images.begin(), images.end(),
+    const auto image = std::find_if(calibrated.begin(), calibrated.end(),
       [&](const CalibratedImage& candidate) { return candidate.file == file; });
     const Camera& camera = image->camera;
-    pictures.push_back({ camera, LoadImage(scene.ImagePath(file), camera.width, camera.height) });
+    read.push_back({ camera, LoadImage(scene.ImagePath(file), camera.width, camera.height) });
   }
-  return pictures;
+  return read;
 }
 
-// The reference and the left picture, rectified, and the disparities in pixels for a range of depths.
+// The reference and the left image, rectified, and the disparities in pixels for a range of depths.
 struct RectifiedPair
 {
   cv::Mat left, right;
@@ -88,9 +88,9 @@ cv::Mat ToMat(const Eigen::MatrixXd& matrix)
 }
 
 RectifiedPair Rectify(
-  const Picture& leftPicture, const Picture& referencePicture, const DisparityRange& range)
+  const CameraImage& leftImage, const CameraImage& referenceImage, const DisparityRange& range)
 {
-  const Camera &left = leftPicture.camera, &reference = referencePicture.camera;
+  const Camera &left = leftImage.camera, &reference = referenceImage.camera;
   const Eigen::Matrix3d rotation = reference.R * left.R.transpose();
   const Eigen::Vector3d translation = reference.t - rotation * left.t;
   const cv::Size size(reference.width, reference.height);
@@ -100,9 +100,9 @@ RectifiedPair Rectify(
     ToMat(translation), R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY, 0);
   RectifiedPair pair;
   cv::initUndistortRectifyMap(leftK, cv::noArray(), R1, P1, size, CV_32F, mapX, mapY);
-  cv::remap(leftPicture.pixels, pair.left, mapX, mapY, cv::INTER_LINEAR);
+  cv::remap(leftImage.pixels, pair.left, mapX, mapY, cv::INTER_LINEAR);
   cv::initUndistortRectifyMap(referenceK, cv::noArray(), R2, P2, size, CV_32F, mapX, mapY);
-  cv::remap(referencePicture.pixels, pair.right, mapX, mapY, cv::INTER_LINEAR);
+  cv::remap(referenceImage.pixels, pair.right, mapX, mapY, cv::INTER_LINEAR);
   const double perDisparity = std::abs(P2.at<double>(0, 3));
   pair.minimum = static_cast<int>(std::floor(perDisparity * range.minimum));
   const double count = std::min<double>(size.width, perDisparity * range.maximum) - pair.minimum;
@@ -134,17 +134,17 @@ void TripletAgainstSGBM(benchmark::State& state)
   }
   cv::setNumThreads(1);
   const int triplets = static_cast<int>(state.range(1));
-  const std::vector<Picture> pictures = ReadPictures(scene, triplets);
+  const std::vector<CameraImage> images = ReadImages(scene, triplets);
   DisparityRange range{ 1 / 1.5, 1 / 0.7 };
   if (state.range(0) == 0)
   {
-    range = CommonRange(pictures[0].camera, pictures[1].camera, pictures[2].camera,
+    range = CommonRange(images[0].camera, images[1].camera, images[2].camera,
       { 0, std::numeric_limits<double>::infinity() });
   }
   MatcherOptions options;
   options.minimumDisparity = range.minimum;
   options.maximumDisparity = range.maximum;
-  const RectifiedPair pair = Rectify(pictures[1], pictures[0], range);
+  const RectifiedPair pair = Rectify(images[1], images[0], range);
   constexpr int block = 5, smooth = 3 * block * block;
   const auto sgbm = cv::StereoSGBM::create(pair.minimum, pair.count, block, 8 * smooth, 32 * smooth,
     1, 63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
@@ -155,12 +155,12 @@ void TripletAgainstSGBM(benchmark::State& state)
     ours += Seconds(
       [&]()
       {
-        const auto edgesOf = [](const Picture& picture) {
-          return ImageEdges{ picture.camera, FindEdges(picture.pixels, EdgeTokenOptions()) };
+        const auto edgesOf = [](const CameraImage& image) {
+          return ImageEdges{ image.camera, FindEdges(image.pixels, EdgeTokenOptions()) };
         };
-        const ImageEdges reference = edgesOf(pictures[0]);
+        const ImageEdges reference = edgesOf(images[0]);
         std::vector<ImageEdges> others;
-        std::transform(pictures.begin() + 1, pictures.end(), std::back_inserter(others), edgesOf);
+        std::transform(images.begin() + 1, images.end(), std::back_inserter(others), edgesOf);
         const auto all = MatchEdges(reference, others, options);
         matches = std::count_if(
           all.begin(), all.end(), [](const EdgeMatch& match) { return match.images > 0; });

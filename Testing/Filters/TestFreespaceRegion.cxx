@@ -31,7 +31,7 @@ namespace
 constexpr int Side = 30; // points of a wall, each way
 
 // A view along z of a wall at a depth of 10 that is 3 wide, with a bump; and perhaps of three points very far
-// behind it, at the picture's corners.
+// behind it, at the image's corners.
 DisparityMap Wall(double eyeX, bool withFar, int index)
 {
   DisparityMap map;

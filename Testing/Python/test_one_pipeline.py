@@ -20,7 +20,7 @@ def body(file):
 
 
 def pipeline(out):
-    """Photographs to a file, all by connections and with the defaults of every class."""
+    """Images to a file, all by connections and with the defaults of every class."""
     stereo = freespace.vtkEdgeStereoReader()
     stereo.SetFileName(SCENE)
     maps = freespace.vtkDelaunayDisparityFilter()

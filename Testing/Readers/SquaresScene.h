@@ -14,7 +14,7 @@
 namespace freespace
 {
 
-/// A scene.json with as many clusters, all of the same three pictures of coloured squares.
+/// A scene.json with as many clusters, all of the same three images of coloured squares.
 class SquaresScene
 {
 public:

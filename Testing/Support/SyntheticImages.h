@@ -88,7 +88,7 @@ inline Eigen::Vector3d Trace(const Layers& layers, const Eigen::Vector3d& origin
 /// Maps a pixel of the image to the pixel at which a camera without distortion sees the same.
 using PixelMap = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
-/// The picture that a camera takes, each pixel the mean of some rays spread evenly over its area (a
+/// The image that a camera takes, each pixel the mean of some rays spread evenly over its area (a
 /// Fibonacci lattice, which favours no direction of an edge).
 inline cv::Mat Render(
   const Layers& layers, const Camera& camera, const PixelMap& undistort = nullptr, int rays = 40)

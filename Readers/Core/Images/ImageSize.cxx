@@ -104,16 +104,16 @@ Size ReadImageSize(const std::string& path)
   }
   if (!size)
   {
-    cv::Mat picture;
+    cv::Mat pixels;
     try
     {
-      picture = ReadImageFile(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+      pixels = ReadImageFile(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     }
     catch (const cv::Exception&)
     {
-      picture.release();
+      pixels.release();
     }
-    size = SizeOf(picture.cols, picture.rows);
+    size = SizeOf(pixels.cols, pixels.rows);
   }
   return size;
 }

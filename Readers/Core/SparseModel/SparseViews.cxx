@@ -41,7 +41,7 @@ double GreatestAngle(const std::vector<Eigen::Vector3d>& rays)
   return std::atan2(one.cross(other).norm(), one.dot(other));
 }
 
-int FeaturesInPicture(const View& view)
+int FeaturesInImage(const View& view)
 {
   return static_cast<int>(std::count_if(view.points.begin(), view.points.end(),
     [&](const Eigen::Vector3d& point) { return view.camera.Sees(view.camera.Project(point)); }));
@@ -197,7 +197,7 @@ std::vector<SparseView> ViewsFromModel(
     });
   views.erase(
     std::remove_if(views.begin(), views.end(),
-      [&](const SparseView& view) { return FeaturesInPicture(view) < options.minimumFeatures; }),
+      [&](const SparseView& view) { return FeaturesInImage(view) < options.minimumFeatures; }),
     views.end());
   return views;
 }

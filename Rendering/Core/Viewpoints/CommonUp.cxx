@@ -12,13 +12,13 @@ namespace
 {
 
 constexpr double steadiness = 6 * M_PI / 180; // of the roll of a camera in the hand
-constexpr std::size_t mostCameras = 100;      // heeded, evenly taken
+constexpr std::size_t mostCameras = 100;      // considered, evenly chosen
 
 /// A way to hold a camera, by where up is in the image, from its own up towards its right.
 struct Hold
 {
   double roll;
-  double share; // of pictures
+  double share; // of images
 };
 
 constexpr std::array<Hold, 4> holds = { Hold{ 0, 0.6 }, Hold{ M_PI / 2, 0.14 },

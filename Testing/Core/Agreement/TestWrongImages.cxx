@@ -107,7 +107,7 @@ TEST(WrongImages, RightOnesAllStay)
   EXPECT_FALSE(checked.choice.empty());
 }
 
-TEST(WrongImages, TurnedPicturesAreLeftOut)
+TEST(WrongImages, TurnedImagesAreLeftOut)
 {
   const RowScene scene;
   scene.Turn(1);

@@ -13,8 +13,8 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-// A picture of 120 x 100 pixels that is bright where the function is positive.
-cv::Mat Picture(
+// An image of 120 x 100 pixels that is bright where the function is positive.
+cv::Mat Image(
   const std::function<double(double x, double y)>& bright, double low = 40, double high = 200)
 {
   Camera camera;
@@ -52,7 +52,7 @@ TEST(EdgeTokens, LineAtAnyAngleHasNoBias)
   for (double degrees = 0; degrees < 360; degrees += 7.5)
   {
     const Line line{ degrees, 0.013 * degrees };
-    const EdgeChains edges = FindEdges(Picture(line), EdgeTokenOptions());
+    const EdgeChains edges = FindEdges(Image(line), EdgeTokenOptions());
     ASSERT_EQ(edges.NumberOfChains(), 1u) << degrees;
     double sum = 0, squares = 0;
     for (const EdgeToken& token : edges.tokens)
@@ -72,7 +72,7 @@ TEST(EdgeTokens, LineAtAnyAngleHasNoBias)
 TEST(EdgeTokens, CircleIsOneClosedChain)
 {
   const auto circle = [](double x, double y) { return 30 - std::hypot(x - 61.3, y - 48.8); };
-  const EdgeChains edges = FindEdges(Picture(circle), EdgeTokenOptions());
+  const EdgeChains edges = FindEdges(Image(circle), EdgeTokenOptions());
   ASSERT_EQ(edges.NumberOfChains(), 1u);
   for (std::size_t i = 0; i < edges.tokens.size(); ++i)
   {
@@ -113,25 +113,25 @@ TEST(EdgeTokens, ColorsOfBothSides)
 TEST(EdgeTokens, ContrastDecides)
 {
   const Line line{ 90, 0 };
-  EXPECT_EQ(FindEdges(Picture(line, 120, 122), EdgeTokenOptions()).tokens.size(), 0u);
-  EXPECT_GT(FindEdges(Picture(line, 110, 135), EdgeTokenOptions()).tokens.size(), 90u);
+  EXPECT_EQ(FindEdges(Image(line, 120, 122), EdgeTokenOptions()).tokens.size(), 0u);
+  EXPECT_GT(FindEdges(Image(line, 110, 135), EdgeTokenOptions()).tokens.size(), 90u);
   // In the dark, where there is less noise, less will do.
-  EXPECT_GT(FindEdges(Picture(line, 10, 17), EdgeTokenOptions()).tokens.size(), 90u);
-  EXPECT_EQ(FindEdges(Picture(line, 240, 247), EdgeTokenOptions()).tokens.size(), 0u);
+  EXPECT_GT(FindEdges(Image(line, 10, 17), EdgeTokenOptions()).tokens.size(), 90u);
+  EXPECT_EQ(FindEdges(Image(line, 240, 247), EdgeTokenOptions()).tokens.size(), 0u);
 }
 
 TEST(EdgeTokens, ShortChainsAreDropped)
 {
   const auto dot = [](double x, double y) { return 1.5 - std::hypot(x - 60, y - 50); };
   EdgeTokenOptions options;
-  EXPECT_GT(FindEdges(Picture(dot), options).tokens.size(), 0u);
+  EXPECT_GT(FindEdges(Image(dot), options).tokens.size(), 0u);
   options.minimumLength = 30;
-  EXPECT_EQ(FindEdges(Picture(dot), options).tokens.size(), 0u);
+  EXPECT_EQ(FindEdges(Image(dot), options).tokens.size(), 0u);
 }
 
-TEST(EdgeTokens, GreyPictureGivesTheSame)
+TEST(EdgeTokens, GreyImageGivesTheSame)
 {
-  const cv::Mat color = Picture(Line{ 30, 2 });
+  const cv::Mat color = Image(Line{ 30, 2 });
   cv::Mat grey;
   cv::extractChannel(color, grey, 0);
   const EdgeChains a = FindEdges(color, EdgeTokenOptions()),
@@ -144,12 +144,12 @@ TEST(EdgeTokens, GreyPictureGivesTheSame)
   }
 }
 
-TEST(EdgeTokens, EmptyAndTinyPictures)
+TEST(EdgeTokens, EmptyAndTinyImages)
 {
   for (int size = 0; size < 6; ++size)
   {
-    const cv::Mat picture(size, size, CV_8UC3, cv::Scalar(10, 20, 30));
-    EXPECT_EQ(FindEdges(picture, EdgeTokenOptions()).NumberOfChains(), 0u) << size;
+    const cv::Mat image(size, size, CV_8UC3, cv::Scalar(10, 20, 30));
+    EXPECT_EQ(FindEdges(image, EdgeTokenOptions()).NumberOfChains(), 0u) << size;
   }
 }
 

@@ -117,8 +117,8 @@ TEST(LensDistortion, NoPixels)
   EXPECT_TRUE(DistortPixels(ImageWith(CameraWithLens(LensModel::FieldOfView)), {}).empty());
 }
 
-// A picture of a ramp, as the lens shows it, is the ramp again.
-TEST(LensDistortion, PicturesAreResampledByTheFormula)
+// An image of a ramp, as the lens shows it, is the ramp again.
+TEST(LensDistortion, ImagesAreResampledByTheFormula)
 {
   for (const LensModel model : { LensModel::OpenCVFisheye, LensModel::ThinPrismFisheye,
          LensModel::FieldOfView, LensModel::Radial })

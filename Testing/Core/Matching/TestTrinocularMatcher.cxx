@@ -19,7 +19,7 @@ const std::vector<int> ThreeCameras = { 0, 1, 2 }; // reference, left, right
 const std::vector<int> Column = { 0, 3, 4 };       // reference, up, down
 const std::vector<int> FiveCameras = { 0, 1, 2, 3, 4 };
 
-// Pictures of a scene and what was made of them.
+// Images of a scene and what was made of them.
 struct MatcherTrial
 {
   std::vector<ImageEdges> images;
@@ -32,7 +32,7 @@ struct MatcherTrial
   }
 };
 
-using Change = std::function<void(int image, cv::Mat& picture)>;
+using Change = std::function<void(int image, cv::Mat& pixels)>;
 
 MatcherTrial Match(const Layers& layers, const std::vector<int>& cameras,
   const Change& change = nullptr, const MatcherOptions& options = MatcherOptions())
@@ -41,19 +41,19 @@ MatcherTrial Match(const Layers& layers, const std::vector<int>& cameras,
   MatcherTrial trial;
   for (int camera : cameras)
   {
-    cv::Mat picture = Render(layers, all[camera]);
+    cv::Mat pixels = Render(layers, all[camera]);
     if (change)
     {
-      change(camera, picture);
+      change(camera, pixels);
     }
-    trial.images.push_back({ all[camera], FindEdges(picture, EdgeTokenOptions()) });
+    trial.images.push_back({ all[camera], FindEdges(pixels, EdgeTokenOptions()) });
   }
   trial.matches = MatchEdges(trial.images[0],
     std::vector<ImageEdges>(trial.images.begin() + 1, trial.images.end()), options);
   return trial;
 }
 
-// Disparity errors in pixels of one baseline (0.1), for the matches in the picture's inside.
+// Disparity errors in pixels of one baseline (0.1), for the matches in the inside of the image.
 std::vector<double> Errors(
   const MatcherTrial& trial, const std::function<double(double, double)>& depth)
 {
@@ -246,9 +246,9 @@ TEST(TrinocularMatcher, NoiseAlone)
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0, 40);
   const MatcherTrial trial = Match({ plane }, FiveCameras,
-    [&](int, cv::Mat& picture)
+    [&](int, cv::Mat& pixels)
     {
-      for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel)
+      for (auto pixel = pixels.begin<cv::Vec3b>(); pixel != pixels.end<cv::Vec3b>(); ++pixel)
       {
         for (int c = 0; c < 3; ++c)
         {
@@ -267,10 +267,10 @@ TEST(TrinocularMatcher, ImagesOfDifferentBrightness)
   plane.color = RandomSquares(0.05, 4);
   const MatcherTrial same = Match({ plane }, FiveCameras);
   const MatcherTrial other = Match({ plane }, FiveCameras,
-    [](int image, cv::Mat& picture)
+    [](int image, cv::Mat& pixels)
     {
       const double gain[5] = { 1.0, 0.6, 1.15, 0.8, 0.5 }, offset[5] = { 0, 5, -10, 15, 0 };
-      picture.convertTo(picture, -1, gain[image], offset[image]);
+      pixels.convertTo(pixels, -1, gain[image], offset[image]);
     });
   EXPECT_GT(other.Matched(), 0.95 * same.Matched());
   EXPECT_GT(Share(Errors(other, AtDepth(1)), 0.3), 0.98);

@@ -239,7 +239,7 @@ TEST(EdgeStereo, MissingImage)
 TEST(EdgeStereo, UnreadableImage)
 {
   const SquaresScene scene;
-  scene.Folder.Write("images/d.png", "not a picture");
+  scene.Folder.Write("images/d.png", "not an image");
   scene.ExpectOneSentence("images/d.png", "damaged");
 }
 

@@ -281,7 +281,7 @@ class TestBadInput(WithFolder):
 
     def test_unreadable_image(self):
         scene = self.small_scene()
-        (self.folder / 'images' / 'cluster1_l.jpg').write_text('not a picture')
+        (self.folder / 'images' / 'cluster1_l.jpg').write_text('not an image')
         self.stereo_fails('cluster1_l.jpg', scene)
 
     def test_truncated_image(self):

@@ -160,7 +160,7 @@ std::vector<CameraGroup> CameraGroups(const Scene& scene)
   {
     cameras[image.file] = image.camera;
   }
-  CameraGroup all{ "photographs", {} };
+  CameraGroup all{ "images", {} };
   for (const CalibratedImage& image : PresentImages(scene, images))
   {
     all.cameras.push_back(image.camera);
@@ -184,7 +184,7 @@ Surroundings LookAround(Session& session, const Scene& scene, vtkMultiBlockDataS
   around.scene = scene;
   vtkNew<vtkPhotographReader> reader;
   reader->SetFileName(scene.file);
-  session.Run(reader, "photographs");
+  session.Run(reader, "images");
   around.photographs = reader->GetOutput();
   around.views = ViewsFromBlocks(WithoutSilhouettes(features));
   for (const View& view : around.views)
@@ -356,7 +356,7 @@ void AddNumbers(const ReportSettings& settings, const Surroundings& around, Repo
     " views, and the boundary of the space that they show to be free: a surface of " +
     FormatCount(triangles) + " triangles, in the colours of " +
     FormatCount(static_cast<long long>(cameras)) + " calibrated images.";
-  report.facts = { { FormatCount(static_cast<long long>(cameras)), "photographs" },
+  report.facts = { { FormatCount(static_cast<long long>(cameras)), "images" },
     { std::to_string(around.views.size()), "views" }, { FormatCount(features), "features" },
     { FormatCount(inserted), "brought in by the constraint" },
     { FormatCount(triangles), "triangles" } };

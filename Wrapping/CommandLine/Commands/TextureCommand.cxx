@@ -97,7 +97,7 @@ void Texture(Session& session, const TextureSettings& settings)
   CheckMemory(settings, limit);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
-  session.Run(photographs, "photographs");
+  session.Run(photographs, "images");
   vtkNew<vtkTextureBaker> baker;
   baker->SetInputDataObject(surface);
   baker->SetPhotographs(photographs->GetOutput());

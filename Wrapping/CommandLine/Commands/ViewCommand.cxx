@@ -203,7 +203,7 @@ void ViewScene(Session& session, const ViewSettings& settings)
   const std::vector<Shot> shots = FindShots(session, surface, settings);
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(settings.scene);
-  session.Run(photographs, "photographs");
+  session.Run(photographs, "images");
   const auto folder = settings.IsFolder() ? std::make_unique<NewFolder>(settings.output) : nullptr;
   const auto film =
     settings.IsFilm() ? std::make_unique<Animation>(settings.output, settings.rate) : nullptr;

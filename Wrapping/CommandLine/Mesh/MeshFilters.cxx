@@ -261,7 +261,7 @@ Surface ColorFromScene(Session& session, const std::string& scene, vtkPolyData* 
 {
   vtkNew<vtkPhotographReader> photographs;
   photographs->SetFileName(scene);
-  session.Run(photographs, "photographs");
+  session.Run(photographs, "images");
   vtkNew<vtkTextureBaker> baker;
   baker->SetPhotographs(photographs->GetOutput());
   const Surface charts = Run(session, baker, "colour", surface);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Photographs or features to a surface, in one call."""
+"""Images or features to a surface, in one call."""
 import os
 
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
