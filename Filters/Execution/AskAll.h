@@ -21,7 +21,7 @@ template <typename Union, typename Ask>
 bool AskAll(Union* phi, const Progress& progress, MakeIndex makeIndex, vtkIdType count,
   vtkDataArray* results, const Ask& ask)
 {
-  constexpr vtkIdType blockSize = 1024;
+  constexpr vtkIdType chunkSize = 1024;
   constexpr double buildingShare = 0.5; // of the progress, between building and asking
   const double built = phi->IsBuilt() ? 0.0 : buildingShare;
   results->SetNumberOfComponents(1);
@@ -33,12 +33,12 @@ bool AskAll(Union* phi, const Progress& progress, MakeIndex makeIndex, vtkIdType
     {
       (core.get()->*makeIndex)(progress.Part(0.9 * built, built));
     }
-    ParallelForWithProgress(static_cast<std::size_t>((count + blockSize - 1) / blockSize),
+    ParallelForWithProgress(static_cast<std::size_t>((count + chunkSize - 1) / chunkSize),
       SMPParallelFor, progress.Part(built, 1.0),
-      [&](std::size_t block, const CancellationFlag& stop)
+      [&](std::size_t chunk, const CancellationFlag& stop)
       {
-        const vtkIdType begin = static_cast<vtkIdType>(block) * blockSize;
-        for (vtkIdType i = begin; i < std::min(begin + blockSize, count); ++i)
+        const vtkIdType begin = static_cast<vtkIdType>(chunk) * chunkSize;
+        for (vtkIdType i = begin; i < std::min(begin + chunkSize, count); ++i)
         {
           ThrowIfCancelled(stop);
           ask(core.get(), i);

@@ -132,9 +132,9 @@ bool CanGrow(const fs::path& file, std::size_t bytes)
 // Whether all that was written beside a target seems to be whole.
 bool IsWhole(const fs::path& folder)
 {
-  constexpr std::size_t block = 1 << 16;
+  constexpr std::size_t bytes = 1 << 16;
   const fs::path probe = folder / ".probe";
-  const bool hasRoom = CanGrow(probe, block);
+  const bool hasRoom = CanGrow(probe, bytes);
   fs::remove(probe);
   const fs::recursive_directory_iterator files(folder);
   return hasRoom &&

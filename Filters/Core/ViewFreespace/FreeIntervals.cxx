@@ -134,7 +134,7 @@ void AddFreeInCell(const DisparityRaster& raster, std::size_t index, const Vecto
   }
 }
 
-// Walks along a segment over the raster, cell by cell, or block by block where it is far from the
+// Walks along a segment over the raster, cell by cell, or tile by tile where it is far from the
 // map.
 class SegmentWalk
 {
@@ -159,8 +159,8 @@ public:
   void Run(IntervalJoiner& joiner);
 
 private:
-  static constexpr int BlockLevel = 3; // of the pyramid
-  static constexpr int BlockSize = 1 << BlockLevel;
+  static constexpr int TileLevel = 3; // of the pyramid
+  static constexpr int TileSize = 1 << TileLevel;
 
   // Out of a square of cells: the place and the axis of the side crossed; -1: the segment ends in
   // it.
@@ -195,8 +195,8 @@ void SegmentWalk::Run(IntervalJoiner& joiner)
   {
     const double from = this->Here;
     intervals.clear();
-    Step step = this->StepOver(BlockLevel);
-    const bool isFar = this->CellsToGo() > BlockSize;
+    Step step = this->StepOver(TileLevel);
+    const bool isFar = this->CellsToGo() > TileSize;
     if (!isFar || !this->IsDecided(step, intervals))
     {
       step = this->StepOver(0);
@@ -264,17 +264,17 @@ SegmentWalk::Step SegmentWalk::StepOver(int level) const
   return step;
 }
 
-// Whether the segment's part over a block is free, or not free, as a whole.
+// Whether the segment's part over a tile is free, or not free, as a whole.
 bool SegmentWalk::IsDecided(const Step& step, Intervals& intervals) const
 {
-  if (this->Raster.Pyramid().size() <= BlockLevel)
+  if (this->Raster.Pyramid().size() <= TileLevel)
   {
     return false;
   }
-  const DisparityRaster::Level& blocks = this->Raster.Pyramid()[BlockLevel];
+  const DisparityRaster::Level& tiles = this->Raster.Pyramid()[TileLevel];
   const auto [low, high] =
-    blocks.bounds[static_cast<std::size_t>(this->At[1] >> BlockLevel) * blocks.width +
-      (this->At[0] >> BlockLevel)];
+    tiles.bounds[static_cast<std::size_t>(this->At[1] >> TileLevel) * tiles.width +
+      (this->At[0] >> TileLevel)];
   const double depthBegin = this->First.z() + this->Here * (this->Last.z() - this->First.z());
   const double depthEnd = this->First.z() + step.next * (this->Last.z() - this->First.z());
   if (high * std::max(depthBegin, depthEnd) < 1.0)
@@ -298,7 +298,7 @@ void SegmentWalk::Take(const Step& step)
     this->Goal[axis] > this->At[axis] ? (square + 1) << step.level : (square << step.level) - 1;
   if (step.level > 0)
   {
-    // The cell on the block's side, neither back nor beyond the goal.
+    // The cell on the tile's side, neither back nor beyond the goal.
     int cell[2];
     this->CellAt(this->Here, cell);
     const auto [least, most] = std::minmax(this->At[other], this->Goal[other]);

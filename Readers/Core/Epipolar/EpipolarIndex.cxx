@@ -79,21 +79,21 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   {
     this->Begin[cell + 1] += this->Begin[cell];
   }
-  this->Blocks.resize((this->Begin.back() + 3) / 4);
+  this->Groups.resize((this->Begin.back() + 3) / 4);
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   this->VisitCells(
     [&](int row, int column, const Piece& piece)
     {
       const int place = next[row * this->Columns + column]++, i = place % 4;
-      PieceBlock& block = this->Blocks[place / 4];
-      block.low[i] = piece.low;
-      block.high[i] = piece.high;
-      block.u[i] = piece.ColumnAt(this->FirstRow + static_cast<float>(row));
-      block.slope[i] = piece.slope;
-      block.tangentU[i] = piece.tangentU;
-      block.tangentV[i] = piece.tangentV;
-      block.width[i] = piece.uncertainty / std::abs(piece.tangentV);
-      block.token[i] = static_cast<int>(&piece - this->Pieces.data());
+      PieceGroup& group = this->Groups[place / 4];
+      group.low[i] = piece.low;
+      group.high[i] = piece.high;
+      group.u[i] = piece.ColumnAt(this->FirstRow + static_cast<float>(row));
+      group.slope[i] = piece.slope;
+      group.tangentU[i] = piece.tangentU;
+      group.tangentV[i] = piece.tangentV;
+      group.width[i] = piece.uncertainty / std::abs(piece.tangentV);
+      group.token[i] = static_cast<int>(&piece - this->Pieces.data());
     });
 }
 

@@ -99,11 +99,11 @@ public:
     float columns[4], cosines[4];
     for (int first = begin & ~3; first < end; first += 4)
     {
-      const PieceBlock& block = this->Blocks[first / 4];
-      const cv::v_float32x4 u = cv::v_load(block.u) + down * cv::v_load(block.slope);
+      const PieceGroup& group = this->Groups[first / 4];
+      const cv::v_float32x4 u = cv::v_load(group.u) + down * cv::v_load(group.slope);
       const cv::v_float32x4 cosine =
-        cv::v_abs(tangentU * cv::v_load(block.tangentU) + tangentV * cv::v_load(block.tangentV));
-      int found = cv::v_signmask((cv::v_load(block.low) <= at) & (at < cv::v_load(block.high)) &
+        cv::v_abs(tangentU * cv::v_load(group.tangentU) + tangentV * cv::v_load(group.tangentV));
+      int found = cv::v_signmask((cv::v_load(group.low) <= at) & (at < cv::v_load(group.high)) &
         (u >= near) & (u < far) & (cosine >= least));
       found &= first < begin ? 15 << (begin - first) : 15;
       found &= first + 4 > end ? 15 >> (first + 4 - end) : 15;
@@ -117,7 +117,7 @@ public:
       {
         if (found & 1)
         {
-          visit(block.token[k], columns[k], cosines[k], block.width[k]);
+          visit(group.token[k], columns[k], cosines[k], group.width[k]);
         }
       }
     }
@@ -141,7 +141,7 @@ private:
   void VisitCells(Visitor&& visit) const;
 
   // Four pieces, so that processors compare them at once.
-  struct PieceBlock
+  struct PieceGroup
   {
     float low[4], high[4];
     float u[4]; // where it crosses the upper border of the cell's row
@@ -150,7 +150,7 @@ private:
   };
 
   LargeVector<Piece> Pieces;      // per token
-  LargeVector<PieceBlock> Blocks; // by cell; in that of their start, in each row that they touch
+  LargeVector<PieceGroup> Groups; // by cell; in that of their start, in each row that they touch
   std::vector<int> Begin;         // of each cell and one past the last, rows x columns
   int Rows = 0;
   int Columns = 0;

@@ -165,7 +165,7 @@ TEST(BridgeMask, HoldsEveryPixelOfABridgeAndFewBesideThem)
     for (int i = 0; i < 500; ++i)
     {
       const Vector2d pixel(140 * unit(random) - 20, 120 * unit(random) - 20);
-      // Blocks are less than half a pixel wide: the image has 100 x 80.
+      // Tiles are less than half a pixel wide: the image has 100 x 80.
       const bool isFar = std::all_of(boxes.begin(), boxes.end(),
         [&](const Eigen::AlignedBox2d& box) { return box.exteriorDistance(pixel) > 0.7; });
       beside += isFar;

@@ -203,7 +203,7 @@ TEST(ViewVotes, CrossingsAreTheFirstFreePlaces)
   EXPECT_GT(found, 300);
 }
 
-TEST(ViewVotes, SegmentsAreFreeUpToTheFirstBlock)
+TEST(ViewVotes, SegmentsAreFreeUpToWhatBlocksThem)
 {
   int blockedSegments = 0, freeSegments = 0;
   for (unsigned int seed = 0; seed < 60; ++seed)

@@ -41,7 +41,7 @@ struct BackgroundOptions
 ///
 /// Where a near edge occludes a far surface, a Delaunay triangulation joins the two by triangles
 /// that are on no surface: bridges. They claim too little free space, and where the bridges of all
-/// views overlap, as between two blocks, matter remains that does not exist. A bridge is refuted
+/// views overlap, as between two boxes, matter remains that does not exist. A bridge is refuted
 /// when it is in the free space of another view close to its near side: if only at a distance, the
 /// occluding edge was missed, and the space between it and the near side is not known. The near
 /// corners of a refuted bridge are moved back to the background surface, which continues behind the

@@ -66,7 +66,7 @@ bool BridgedMap::Spans(std::size_t triangle, const BackgroundOptions& options) c
 }
 
 BridgeMask::BridgeMask(const BridgedMap& bridged)
-  : Touched(Blocks * Blocks, 0)
+  : Touched(Tiles * Tiles, 0)
 {
   const DisparityMap& map = bridged.map;
   for (const auto& triangle : map.triangles)
@@ -76,7 +76,7 @@ BridgeMask::BridgeMask(const BridgedMap& bridged)
       this->Box.extend(map.imagePoints[corner]);
     }
   }
-  this->BlocksPerPixel = Blocks / this->Box.sizes().array().max(1e-9);
+  this->TilesPerPixel = Tiles / this->Box.sizes().array().max(1e-9);
   for (std::size_t t = 0; t < map.triangles.size(); ++t)
   {
     if (bridged.isBridge[t])
@@ -84,7 +84,7 @@ BridgeMask::BridgeMask(const BridgedMap& bridged)
       const auto [a, b, c] = map.triangles[t];
       Eigen::AlignedBox2d box(map.imagePoints[a]);
       box.extend(map.imagePoints[b]).extend(map.imagePoints[c]);
-      const Eigen::Array2i first = this->Block(box.min()), last = this->Block(box.max());
+      const Eigen::Array2i first = this->Tile(box.min()), last = this->Tile(box.max());
       for (int y = first.y(); y <= last.y(); ++y)
       {
         std::fill(

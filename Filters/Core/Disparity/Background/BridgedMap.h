@@ -36,20 +36,20 @@ public:
 
   bool MayHold(const Eigen::Vector2d& pixel) const
   {
-    return this->Box.contains(pixel) && this->Touched[Index(this->Block(pixel))];
+    return this->Box.contains(pixel) && this->Touched[Index(this->Tile(pixel))];
   }
 
 private:
-  static constexpr int Blocks = 512; ///< along each side
+  static constexpr int Tiles = 512; ///< along each side
 
-  Eigen::Array2i Block(const Eigen::Vector2d& pixel) const
+  Eigen::Array2i Tile(const Eigen::Vector2d& pixel) const
   {
-    return ((pixel - this->Box.min()).array() * this->BlocksPerPixel).cast<int>().min(Blocks - 1);
+    return ((pixel - this->Box.min()).array() * this->TilesPerPixel).cast<int>().min(Tiles - 1);
   }
-  static int Index(const Eigen::Array2i& block) { return block.y() * Blocks + block.x(); }
+  static int Index(const Eigen::Array2i& tile) { return tile.y() * Tiles + tile.x(); }
 
   Eigen::AlignedBox2d Box;
-  Eigen::Array2d BlocksPerPixel;
+  Eigen::Array2d TilesPerPixel;
   std::vector<char> Touched;
 };
 

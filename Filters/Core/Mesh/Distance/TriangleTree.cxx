@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr std::size_t LeafTriangles = 2;
-constexpr std::size_t BlockSize = 1024; // points that follow each other on one thread
+constexpr std::size_t ChunkSize = 1024; // points that follow each other on one thread
 constexpr int CurveBits = 63;
 constexpr float Unbounded = std::numeric_limits<float>::infinity();
 // What the squared distance to a box may be off for single precision, as a share of it.
@@ -287,13 +287,13 @@ std::vector<NearestPlace> TriangleTree::Find(const std::vector<Vector3d>& points
   const ParallelFor& parallelFor, const Progress& progress) const
 {
   std::vector<NearestPlace> found(points.size());
-  const std::size_t blocks = this->IsEmpty() ? 0 : (points.size() + BlockSize - 1) / BlockSize;
-  ParallelForWithProgress(blocks, parallelFor, progress,
-    [&](std::size_t block, const CancellationFlag& stop)
+  const std::size_t chunks = this->IsEmpty() ? 0 : (points.size() + ChunkSize - 1) / ChunkSize;
+  ParallelForWithProgress(chunks, parallelFor, progress,
+    [&](std::size_t chunk, const CancellationFlag& stop)
     {
       ThrowIfCancelled(stop);
       std::int64_t last = -1;
-      for (std::size_t i = block * BlockSize; i < std::min((block + 1) * BlockSize, points.size());
+      for (std::size_t i = chunk * ChunkSize; i < std::min((chunk + 1) * ChunkSize, points.size());
            ++i)
       {
         if (!points[i].allFinite())
