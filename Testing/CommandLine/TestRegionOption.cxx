@@ -43,7 +43,7 @@ TEST(RegionOption, TakesABoxAlsoOfNegativeNumbers)
 TEST(RegionOption, TellsWhatIsNoRegion)
 {
   for (const char* text : { "most", "1,2,3,4,5", "1,2,3,4,5,6,7", "2,1,0,1,0,1", "0,1,0,1,0,nan",
-         "0,1,0,1,0,1x", "0,0,0,1,0,1" })
+         "0,1,0,1,0,1x", "0,0,0,1,0,1", ",,,,,", "0,1,0,1,0,1,", "0,1,,1,0,1" })
   {
     EXPECT_THROW(Given(std::string("--region ") + text), CLI::ValidationError) << text;
   }

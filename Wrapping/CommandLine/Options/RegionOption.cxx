@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options/RegionOption.h"
 
+#include "Common/ParseNumber.h"
+
 #include <vtkFreespaceUnion.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 namespace freespace
 {
@@ -13,10 +17,18 @@ namespace freespace
 // "x0,x1,y0,y1,z0,z1" -> the bounds; false where it is anything else.
 bool RegionOption::ReadBounds(const std::string& text, std::array<double, 6>& b)
 {
-  char more = 0;
-  const bool areSix = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%c", &b[0], &b[1], &b[2],
-                        &b[3], &b[4], &b[5], &more) == 6;
-  bool isBox = areSix;
+  std::string_view rest = text;
+  bool isBox = true;
+  for (std::size_t i = 0; i < b.size() && isBox; ++i)
+  {
+    const std::size_t comma = rest.find(',');
+    std::string_view number = rest.substr(0, comma);
+    number.remove_prefix(std::min(number.find_first_not_of(' '), number.size()));
+    const std::optional<double> bound = ParseNumber<double>(number);
+    isBox = bound && (comma == std::string_view::npos) == (i + 1 == b.size());
+    b[i] = bound.value_or(0);
+    rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);
+  }
   for (int axis = 0; axis < 3 && isBox; ++axis)
   {
     isBox =

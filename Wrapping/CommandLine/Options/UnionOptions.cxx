@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options/UnionOptions.h"
 
+#include "Common/ParseNumber.h"
 #include "Session/NumberValidators.h"
 
 namespace freespace
@@ -19,7 +20,7 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
     .add_option("--min-views", this->MinimumViews,
       "Number of views that must see a point as free; auto: 3, or no fewer than "
       "contradict them, which have it closely behind their own surface; 1 in the paper")
-    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 1000000))
+    ->check(CLI::IsMember({ "auto" }) | WholeNumber(1, 1000000))
     ->type_name("auto|INT")
     ->capture_default_str()
     ->group(group);
@@ -44,8 +45,7 @@ double UnionOptions::MarginFor(int cells) const
 
 int UnionOptions::Views() const
 {
-  return this->MinimumViews == "auto" ? FreespaceUnionOptions::AutomaticViews
-                                      : std::stoi(this->MinimumViews);
+  return ParseNumber<int>(this->MinimumViews).value_or(FreespaceUnionOptions::AutomaticViews);
 }
 
 }

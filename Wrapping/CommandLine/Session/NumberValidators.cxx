@@ -58,4 +58,18 @@ CLI::Validator Positive()
     "NUMBER > 0");
 }
 
+CLI::Validator WholeNumber(int least, int most)
+{
+  const std::string range = std::to_string(least) + " to " + std::to_string(most);
+  return CLI::Validator(
+    [least, most, range](const std::string& text)
+    {
+      const std::optional<int> value = ParseNumber<int>(text);
+      return value && *value >= least && *value <= most
+        ? std::string()
+        : "'" + text + "' is not a whole number from " + range;
+    },
+    "INT in [" + std::to_string(least) + " - " + std::to_string(most) + "]");
+}
+
 }

@@ -17,6 +17,9 @@ CLI::Validator Between(double least, double most);
 /// The same for a number above 0.
 CLI::Validator Positive();
 
+/// A whole number in decimal digits; CLI::Range also takes 0x10.
+CLI::Validator WholeNumber(int least, int most);
+
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "Stages/ContourStage.h"
 
 #include "Common/FileExtension.h"
+#include "Common/ParseNumber.h"
 #include "Data/PointNormals.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Freespace/FreespaceUnion.h"
@@ -46,7 +47,7 @@ void ContourStage::AddOptions(CLI::App& command)
     .add_option("--cells", this->Cells,
       "Number of lattice cells along the longest side; auto: as many as resolve the features, "
       "within the memory limit")
-    ->check(CLI::IsMember({ "auto" }) | CLI::Range(1, 65536))
+    ->check(CLI::IsMember({ "auto" }) | WholeNumber(1, 65536))
     ->type_name("auto|INT")
     ->capture_default_str()
     ->group("Surface");
@@ -131,7 +132,7 @@ vtkSmartPointer<vtkBisectionContourFilter> ContourStage::MakeFilter(
 {
   vtkNew<vtkFreespaceUnion> phi;
   phi->SetMaps(maps);
-  const int cells = this->Cells == "auto" ? -1 : std::stoi(this->Cells);
+  const int cells = ParseNumber<int>(this->Cells).value_or(-1); // auto
   this->Union.SetUp(phi.Get(), cells);
   auto contour = vtkSmartPointer<vtkBisectionContourFilter>::New();
   contour->SetImplicitFunction(phi);
@@ -191,7 +192,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
 {
   const double limit = contour->GetMemoryLimit();
   // Most lattices are too small to have such a surface.
-  const double worst = this->Cells == "auto" ? 0 : std::pow(std::stod(this->Cells), 3) * WorstCell;
+  const double worst = std::pow(ParseNumber<int>(this->Cells).value_or(0), 3) * WorstCell;
   if (limit == 0 || worst <= limit || this->Observed || this->Normals || this->Simplify > 0 ||
     LowerCaseExtension(fileName) != ".ply")
   {
