@@ -183,7 +183,7 @@ struct RoundedPlacement
   template <typename Profile>
   Optional<typename Profile::Point> operator()(const Profile& profile) const
   {
-    const auto exact = this->placement(profile);
+    auto exact = this->placement(profile);
     if (!exact || !this->isSingle)
     {
       return exact;
