@@ -19,7 +19,7 @@ public:
   GeometryBuffer();
   ~GeometryBuffer();
 
-  /// Makes it the framebuffer of the window's context, with this size and at most so many samples.
+  /// Makes it the framebuffer of the window's context, with this size and at most this number of samples.
   /// Returns false when the context does not support it.
   bool Bind(vtkOpenGLRenderWindow* window, int width, int height, int samples);
 

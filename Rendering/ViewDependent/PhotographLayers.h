@@ -30,7 +30,7 @@ public:
   /// Whether each image has its map.
   bool HasMaps() const { return this->Maps.size() == this->Photographs.size(); }
 
-  /// Selects the views for a novel centre of projection, at most `most`, in at most so many bytes, and
+  /// Selects the views for a novel centre of projection, at most `most`, in at most `memory` bytes, and
   /// uploads those that are not in the textures yet.
   void UpdateLayers(vtkOpenGLState* state, const Eigen::Vector3d& novelCenter, std::size_t most,
     double memory, int colorUnit, int visibilityUnit);

@@ -47,9 +47,9 @@ void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& boun
   const ContourOptions& options, const AllocateContour& allocate, const Progress& progress = {},
   const ParallelFor& parallelFor = SerialFor);
 
-/// The same, which keeps its blocks for the next contour and takes those of the last one over wherever a change since
-/// then leaves them; null where the change is not known. The mesh is the same. Nothing is kept of a piece, nor after an
-/// exception.
+/// The same, but keeps its blocks for the next contour and reuses those of the last one that the change of the field
+/// since then does not reach; null: the change is not known, and none is reused. The mesh is the same. Nothing is kept
+/// of a piece, nor after an exception.
 void BisectionContour(const ContourField& field, const Eigen::AlignedBox3d& bounds,
   const ContourOptions& options, const AllocateContour& allocate, KeptContour& kept,
   const FieldChange* change, const Progress& progress = {},

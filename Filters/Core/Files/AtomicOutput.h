@@ -58,8 +58,8 @@ public:
   /// when that fails, and then everything is as it was.
   void Commit();
 
-  /// The number n from which on NAME_n.vtp, ... are not in the folder NAME of a NAME.vtm, for so many parts. It
-  /// holds, see Hold, until the commit.
+  /// The first number n for which none of the names NAME_n.vtp, ... of this number of parts is taken in the folder NAME
+  /// of a NAME.vtm. It stays free until the commit, see Hold.
   int FirstFreePart(int parts);
 
 private:

@@ -162,7 +162,7 @@ private:
     this->Copy(sequence.data(), sequence.size());
   }
 
-  // Of a sequence, whose elements take so many bytes at least.
+  // Of a sequence, whose elements take at least this number of bytes each.
   std::size_t Size(std::size_t least)
   {
     std::size_t size = 0;

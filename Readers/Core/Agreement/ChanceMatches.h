@@ -17,7 +17,7 @@ using ClusterMeasure =
   std::function<ImageAgreement(const std::vector<CalibratedImage>& images, const Cluster& cluster)>;
 
 /// Whether an image has more confirmed tokens than chance gives. Chance is measured: with a camera that was turned to
-/// where the image cannot have been taken (rolled by 180 degrees, turned aside, turned up), the most of the three.
+/// where the image cannot have been taken (rolled by 180 degrees, turned aside, turned up); the greatest of the three counts.
 ///
 /// agreement: of the image in the cluster of which it is the reference, with the given cameras.
 bool ExceedsChance(const std::vector<CalibratedImage>& images, const Cluster& cluster,

@@ -173,7 +173,7 @@ private:
     }
   }
 
-  // The tokens [first, last) by so many points to either side.
+  // The tokens [first, last), each by the points within the radius along the chain.
   void FitBetween(int first, int last, int radius)
   {
     const double* x = this->PointX.data() + this->Beyond + first;

@@ -11,7 +11,7 @@ struct PatchOptions
   bool isOn = true;   ///< whether patches are looked for at all; the paper has edges only
   int radius = 4;     ///< of the square window in the reference image, pixels; in [2, 7]
   int spacing = 6;    ///< of the grid where a view has no feature, pixels; >= 1
-  int seedStep = 2;   ///< of an edge without a match, every so many tokens; >= 1
+  int seedStep = 2;   ///< along an edge without a match, tokens; >= 1
   int iterations = 6; ///< Gauss-Newton, at most; >= 1
   double leastCorrelation = 0.8; ///< of a partner's patch with the reference's; in (0, 1)
   int leastPartners = 2;         ///< that correlate so well; >= 1

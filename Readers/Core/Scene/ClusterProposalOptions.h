@@ -16,11 +16,11 @@ struct ClusterProposalOptions
   int neighbors = 4;           ///< of a reference at most, 2 or 4
   double separation = 5.0;     ///< of two references seen from the scene, degrees: nearer ones have
                                ///< the same free space; 0 makes every possible image a reference
-  int coverage = 3; ///< an image is not needed when so many references, none farther from it than
-                    ///< coverageAngle, see most of what it sees; 0: no limit
+  int coverage = 3; ///< an image is not needed when this number of references, none farther from
+                    ///< it than coverageAngle, see most of what it sees; 0: no limit
   double coverageAngle = 20.0; ///< degrees
-  int smallSet = 24;           ///< with so many possible references or fewer, coverage counts for
-                               ///< nothing: all of them are worth their time
+  int smallSet = 24;           ///< with at most this number of possible references, coverage is
+                               ///< ignored: all of them are worth their time
 
   /// Throws Error when a field is out of its range.
   void Check() const;

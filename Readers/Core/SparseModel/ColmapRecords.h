@@ -14,7 +14,7 @@ namespace freespace
 //   Observed(id)                     the id of a point or none
 //   Fixed(list, what)                a known number of values
 //   List(list, bytes, each)          records to the end of a line, or after their count, which take at
-//                                    least so many bytes each; each(record) visits one
+//                                    least `bytes` each; each(record) visits one
 //   NextLine()                       where text goes on in another line
 //
 // Records are const where an archive writes.

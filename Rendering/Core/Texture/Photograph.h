@@ -10,10 +10,10 @@
 namespace freespace
 {
 
-/// An image without distortion, and the camera that took it.
 /// Bytes that a pixel takes while a texture is made: its colour twice, as it is given and copied, and a confidence.
 constexpr double MemoryOfPixel = 3 + 3 + sizeof(float);
 
+/// An image without distortion, and the camera that took it.
 struct Photograph
 {
   std::string name;

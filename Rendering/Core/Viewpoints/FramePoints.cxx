@@ -19,7 +19,8 @@ double Quantile(std::vector<double>& values, double share)
   return *at;
 }
 
-// How far values reach; beyond nine tenths of them half the way that these take, if not all is heeded.
+// The greatest value. Where outliers may be cut off, at most that which lies above the middle nine tenths of the values
+// by half of their range.
 double Reach(std::vector<double>& values, Outliers outliers)
 {
   const double most = *std::max_element(values.begin(), values.end());
@@ -111,7 +112,7 @@ double FarEnough(
       depths.push_back(across - from.z());
     }
   }
-  return depths.empty() ? 1 : Reach(depths, Outliers::NotHeeded) / camera.Depth(middle);
+  return depths.empty() ? 1 : Reach(depths, Outliers::MayBeCutOff) / camera.Depth(middle);
 }
 
 Camera WithSize(const Camera& camera, int width, int height)

@@ -12,7 +12,7 @@ namespace freespace
 enum class Outliers
 {
   InFrame,
-  NotHeeded ///< what lies far beyond the most of the points may be cut off by the picture's border
+  MayBeCutOff ///< points far beyond most others may lie beyond the border of the picture
 };
 
 /// A camera translated, not rotated, to the nearest position from which its image shows all points, centred,
@@ -20,12 +20,12 @@ enum class Outliers
 Camera FramePoints(const Camera& camera, const std::vector<Eigen::Vector3d>& points,
   Outliers outliers = Outliers::InFrame);
 
-/// How many times as far as it is from the middle, at which it looks, a camera has to be for its picture to hold
-/// the points; those that lie far beyond the most of them may be cut off. 1 without finite points.
+/// The factor by which the distance of a camera from the middle, at which it looks, has to grow for its picture to
+/// show the points; those far beyond most others may be cut off. 1 without finite points.
 double FarEnough(
   const Camera& camera, const Eigen::Vector3d& middle, const std::vector<Eigen::Vector3d>& points);
 
-/// The camera with a picture of another size that holds all that the camera's own holds.
+/// The camera with a picture of another size, which shows all that the picture of the given camera shows.
 Camera WithSize(const Camera& camera, int width, int height);
 
 }

@@ -116,7 +116,7 @@ Camera Take(const Gaze& gaze, const std::vector<View>& views)
   }
   const Eigen::Vector3d middle = MedianPoint(points);
   return FramePoints(
-    LookAt(views[0].camera, middle - gaze.forward, middle, gaze.up), points, Outliers::NotHeeded);
+    LookAt(views[0].camera, middle - gaze.forward, middle, gaze.up), points, Outliers::MayBeCutOff);
 }
 
 }

@@ -9,7 +9,7 @@
 namespace freespace
 {
 
-/// Viewpoints that no camera has but from which what was photographed shows itself well. Each looks the way
+/// Viewpoints that no camera has but from which what the images show is seen well. Each looks the way
 /// of a view, turned by at most 15 degrees towards the next one that looks another way (by 10 to 120
 /// degrees; aside where there is none), upright (CommonUp.h), and from where the features of all views that look
 /// about the same way fill its picture (FramePoints.h): from near the cameras, not from behind, and

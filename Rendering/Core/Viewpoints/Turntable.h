@@ -13,7 +13,7 @@ namespace freespace
 ///
 /// The middle is the point nearest to all optical axes, up is that of CommonUp.h, height and
 /// distance from the axis are the means of theirs, and the intrinsics are those of the first. With points, the
-/// cameras are as far away, in the same directions, as all their pictures need to hold the most of these. Throws
+/// cameras keep their directions, at the distance at which all their pictures show the points but for distant ones. Throws
 /// Error when there is no camera, or when they all look the same way (then there is no middle).
 std::vector<Camera> TurntableCameras(
   const std::vector<Camera>& cameras, int count, const std::vector<Eigen::Vector3d>& points = {});

@@ -79,10 +79,11 @@ TEST(FramePoints, HeedsNoOutlierUnlessAsked)
 {
   auto points = Cloud(1000);
   const double near = -FramePoints(AnyCamera(), points).Depth({ 0, 0, 0 });
-  const double same = -FramePoints(AnyCamera(), points, Outliers::NotHeeded).Depth({ 0, 0, 0 });
+  const double same = -FramePoints(AnyCamera(), points, Outliers::MayBeCutOff).Depth({ 0, 0, 0 });
   EXPECT_NEAR(same, near, 0.1) << "nothing is far off";
   points.emplace_back(300, 500, -400);
-  const double heedless = -FramePoints(AnyCamera(), points, Outliers::NotHeeded).Depth({ 0, 0, 0 });
+  const double heedless =
+    -FramePoints(AnyCamera(), points, Outliers::MayBeCutOff).Depth({ 0, 0, 0 });
   EXPECT_NEAR(heedless, same, 3);
   EXPECT_LT(-FramePoints(AnyCamera(), points).Depth({ 0, 0, 0 }), near - 100);
 }

@@ -73,7 +73,7 @@ void AddOptions(CLI::App& command, ViewSettings& settings)
   from->add_option("--view", settings.view, "The camera of this image of the scene")
     ->type_name("NAME");
   from->add_option("--model", settings.model, "Each camera of this model")->type_name("MODEL");
-  from->add_option("--turntable", settings.turntable, "So many cameras around the scene")
+  from->add_option("--turntable", settings.turntable, "Number of cameras around the scene")
     ->check(Positive())
     ->type_name("N");
   from->require_option(0, 1);

@@ -45,8 +45,8 @@ public:
   /// piece's triangles need. Throws Error when the surface will not fit into the memory limit.
   void Find(const Progress& progress, const ParallelFor& parallelFor, bool isThreadSafe);
 
-  /// Before Find: takes the blocks of an earlier contour of the whole, on the same lattice and with the same options,
-  /// over wherever the change since then leaves them.
+  /// Before Find: reuses the blocks of an earlier contour of the whole, on the same lattice and with the same options,
+  /// that the change since then does not reach.
   void TakeOver(std::vector<Region> before, const FieldChange& change);
 
   const BoundedField field;

@@ -17,8 +17,8 @@ struct OutlierOptions
   int sharingViews = 3;
 
   /// The neighbourhood. 0: the `nearest` features within two edges of the triangulation, which adapts to the density of
-  /// the features and to depth jumps. Otherwise all features within so many mean distances between the features of
-  /// the view: 2 has about 12 of them. For isolated points; >= 0.
+  /// the features and to depth jumps. Otherwise all features within this multiple of the mean distance between the features
+  /// of the view: 2 has about 12 of them. For isolated points; >= 0.
   double radius = 0;
 
   /// The number of nearest features that are considered without a radius; >= 1, not below `support`.

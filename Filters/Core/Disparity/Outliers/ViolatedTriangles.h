@@ -9,9 +9,9 @@
 namespace freespace
 {
 
-/// For each triangle of a view's map whether its free space is wrong: so many features of other views
-/// lie well in front of it, where it says that there is nothing, and more than lie on it. Features
-/// within so much of their depth of the triangle lie on it. The cloud has the features of all views;
+/// For each triangle of a view's map whether its free space is wrong: at least `leastFeatures` features of
+/// other views lie well in front of it, where it says that there is nothing, and more than lie on it. Features whose
+/// distance to the triangle is at most the fraction `relativeRoom` of their depth lie on it. The cloud has the features of all views;
 /// those of the view itself (by its index) do not count.
 ///
 /// A single feature that sticks out is what the minimum disparity constraint is for (section 2.1): the

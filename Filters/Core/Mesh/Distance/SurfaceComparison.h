@@ -15,7 +15,7 @@ namespace freespace
 
 struct SurfaceComparisonOptions
 {
-  /// Distances at which accuracy, completeness and F are told, in the surfaces' unit; > 0. Empty: 0.1, 0.2 and
+  /// Distances at which accuracy, completeness and F are computed, in the surfaces' unit; > 0. Empty: 0.1, 0.2 and
   /// 0.5 % of the diagonal of the reference's bounding box.
   std::vector<double> limits;
   int samples = 500000; ///< of each surface, evenly by area; >= 0; 0: its points alone
