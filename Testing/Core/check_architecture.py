@@ -5,7 +5,7 @@
     check_architecture.py SOURCE
 
 - No file of a Core folder includes a VTK header.
-- No include cycle between files, and none between folders.
+- No include cycle between files, and none between folders; no import cycle between Python files.
 - No code file has more than 500 lines, no folder more than 20 files, no function more than 80 lines.
 - The files and functions of the table in ARCHITECTURE.md exist.
 
@@ -18,7 +18,7 @@ import sys
 
 ROOTS = ['Filters', 'Readers', 'Rendering', 'Writers', 'Wrapping']
 INCLUDE_DIRS = ['Filters/Core', 'Readers/Core', 'Rendering/Core', 'Filters', 'Readers', 'Rendering',
-                'Writers', 'Wrapping/CommandLine']
+                'Writers', 'Wrapping/CommandLine', 'Testing']
 MOST_LINES = 500
 MOST_FILES = 20
 MOST_FUNCTION_LINES = 80
@@ -38,11 +38,27 @@ def includes(source, file, known):
     """The project's own files that a file includes."""
     with open(os.path.join(source, file), encoding='utf-8') as text:
         for name in re.findall(r'^\s*#\s*include\s*["<]([^">]+)[">]', text.read(), re.M):
-            for folder in INCLUDE_DIRS:
+            for folder in [os.path.dirname(file)] + INCLUDE_DIRS:
                 path = os.path.normpath(os.path.join(folder, name))
                 if path in known:
                     yield path
                     break
+
+
+def imports(source, file, known):
+    """The Python files of its own folder that a Python file imports."""
+    with open(os.path.join(source, file), encoding='utf-8') as text:
+        tree = ast.parse(text.read())
+    for node in ast.walk(tree):
+        names = []
+        if isinstance(node, ast.ImportFrom):
+            names = [node.module] if node.module else [alias.name for alias in node.names]
+        elif isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        for name in names:
+            path = os.path.join(os.path.dirname(file), name + '.py')
+            if path in known:
+                yield path
 
 
 def find_cycle(graph):
@@ -85,9 +101,9 @@ def check_core(source, faults):
 
 
 def check_cycles(source, faults):
-    files = list(code_files(source, ROOTS))
+    files = list(code_files(source, ROOTS + ['Testing', 'Examples']))
     known = set(files)
-    file_graph = {file: set(includes(source, file, known)) for file in files}
+    file_graph = {file: set((imports if file.endswith('.py') else includes)(source, file, known)) for file in files}
     folder_graph = {}
     for file, others in file_graph.items():
         folder = os.path.dirname(file)
