@@ -4,7 +4,6 @@
 #include "Common/Error.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Disparity/Outliers/RadiusSupport.h"
-#include "Disparity/TrimTriangles.h"
 
 #include <gtest/gtest.h>
 
@@ -269,46 +268,4 @@ TEST(RejectOutliers, OptionsOutOfRange)
   EXPECT_THROW(RejectOutliers({}, options), Error);
   options.radius = 2;
   EXPECT_NO_THROW(RejectOutliers({}, options));
-}
-
-TEST(UntrustedTriangles, LongOrDeepOnesGo)
-{
-  const std::vector<View> views = SheetViews(300);
-  const DisparityMap all = OwnMaps(views)[0];
-  TrimOptions options;
-  DisparityMap map = all;
-  TrimTriangles(map, options);
-  EXPECT_EQ(map.triangles, all.triangles);
-
-  options.longestEdge = 30;
-  options.greatestDepth = 1.005;
-  TrimTriangles(map, options);
-  std::size_t expected = 0;
-  for (const auto& t : all.triangles)
-  {
-    double longest = 0, ratio = 1;
-    for (int i : t)
-    {
-      for (int j : t)
-      {
-        longest = std::max(longest, (all.imagePoints[i] - all.imagePoints[j]).norm());
-        ratio = std::max(ratio, all.camera.Depth(all.points[i]) / all.camera.Depth(all.points[j]));
-      }
-    }
-    expected += longest <= 30 && ratio <= 1.005;
-  }
-  EXPECT_EQ(map.triangles.size(), expected);
-  EXPECT_GT(expected, 10u);
-  EXPECT_LT(expected, all.triangles.size() - 10);
-}
-
-TEST(UntrustedTriangles, OptionsOutOfRange)
-{
-  DisparityMap map;
-  TrimOptions options;
-  options.longestEdge = -1;
-  EXPECT_THROW(TrimTriangles(map, options), Error);
-  options = {};
-  options.greatestDepth = 1;
-  EXPECT_THROW(TrimTriangles(map, options), Error);
 }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Edges/MaskedEdges.h"
 
-#include "Common/Error.h"
 #include "Images/ImageMask.h"
-#include "Support/TemporaryFolder.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -73,17 +71,4 @@ TEST(MaskedEdges, ShortRestsOfChainsAreNone)
   mask(cv::Rect(0, 58, 160, 4)) = 255; // four tokens of each upright side
   EXPECT_FALSE(EdgesOutside(edges, mask, 3).tokens.empty());
   EXPECT_TRUE(EdgesOutside(edges, mask, 7).tokens.empty());
-}
-
-TEST(ImageMask, IsScaledOrRefused)
-{
-  const TemporaryFolder folder;
-  cv::Mat mask(60, 80, CV_8U, cv::Scalar(255));
-  mask(cv::Rect(0, 0, 40, 60)) = 0;
-  cv::imwrite(folder.Path("a.jpg.png"), mask);
-  EXPECT_EQ(cv::countNonZero(LoadMask(folder.Path("a.jpg.png"), 80, 60)), 40 * 60);
-  EXPECT_EQ(cv::countNonZero(LoadMask(folder.Path("a.jpg.png"), 160, 120)), 80 * 120);
-  EXPECT_THROW(LoadMask(folder.Path("a.jpg.png"), 80, 80), Error);
-  EXPECT_TRUE(LoadMask(folder.Path("missing.png"), 80, 60).empty());
-  EXPECT_THROW(LoadMask(folder.Write("text.png", "no picture"), 80, 60), Error);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Epipolar/DisparityRange.h"
 
-#include "Support/SyntheticImages.h"
+#include "Support/Core/RandomCameras.h"
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 using namespace freespace;
@@ -91,4 +92,40 @@ TEST(CommonRange, WithoutOverlapIsEmpty)
   Camera away = ParallelCamera(1);
   away.R = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()).toRotationMatrix();
   EXPECT_TRUE(CommonRange(ParallelCamera(0), ParallelCamera(-1), away, { 0, 10 }).Empty());
+}
+
+TEST(VisibleRange, AgreesWithSampling)
+{
+  int seen = 0;
+  for (unsigned int seed = 0; seed < 60; ++seed)
+  {
+    RandomCameras random(seed);
+    const Camera reference = random.Next(), other = random.Next();
+    const Eigen::Vector2d pixel(random.Uniform(0, 240), random.Uniform(0, 180));
+    const DisparityRange range = VisibleRange(reference, pixel, other, { 0.05, 20 });
+    for (double disparity = 0.06; disparity < 20; disparity *= 1.07)
+    {
+      const Eigen::Vector3d point = reference.Unproject(pixel, 1 / disparity);
+      const bool visible = other.Depth(point) > 0 && other.Sees(other.Project(point));
+      EXPECT_EQ(visible, disparity >= range.minimum && disparity <= range.maximum)
+        << seed << " " << disparity;
+      seen += visible;
+    }
+  }
+  EXPECT_GT(seen, 500);
+}
+
+TEST(CommonRange, CamerasThatLookApartHaveNone)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Camera ahead = LookAt({ 0, 0, 0 }, { 0, 0, 1 });
+  EXPECT_FALSE(CommonRange(
+    ahead, LookAt({ -0.1, 0, 0 }, { 0, 0, 1 }), LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 0, infinity })
+                 .Empty());
+  EXPECT_TRUE(CommonRange(ahead, LookAt({ -0.1, 0, 0 }, { -1, 0, -1 }),
+    LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 0, infinity })
+                .Empty());
+  EXPECT_TRUE(CommonRange(
+    ahead, LookAt({ -0.1, 0, 0 }, { 0, 0, 1 }), LookAt({ 0.1, 0, 0 }, { 0, 0, 1 }), { 1e4, 1e5 })
+                .Empty()); // too near
 }

@@ -2,10 +2,12 @@
 // The index of chains against a search over all pieces.
 #include "Epipolar/EpipolarIndex.h"
 
-#include "Support/SyntheticImages.h"
+#include "Support/Core/RandomCameras.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -153,4 +155,79 @@ TEST(EpipolarIndex, NoEdgesAreFound)
   int visits = 0;
   index.VisitRow(0, { -1000, 1000, 0, 1, 0 }, [&](int, float, float, float) { ++visits; });
   EXPECT_EQ(visits, 0);
+}
+
+TEST(EpipolarIndex, FindsTheSameAsLookingAtEveryPiece)
+{
+  RandomCameras random(7);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const EdgeChains edges = RandomChainsOf(random, 100);
+  const EpipolarIndex index(pair, edges, 0.1);
+  int found = 0;
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const EpipolarPair::Ray ray =
+      pair.FromReference({ random.Uniform(0, 600), random.Uniform(0, 400) });
+    const float row = static_cast<float>(ray.v);
+    EpipolarIndex::Search search;
+    search.near = static_cast<float>(ray.u - random.Uniform(50, 400));
+    search.far = static_cast<float>(ray.u + random.Uniform(50, 400));
+    search.tangentU = 0.6f;
+    search.tangentV = 0.8f;
+    search.minimumCosine = 0.7f;
+    std::vector<int> expected, visited;
+    for (int token = 0; token < static_cast<int>(edges.tokens.size()); ++token)
+    {
+      const EpipolarIndex::Piece& piece = index.PieceOf(token);
+      const float u = piece.ColumnAt(row);
+      const float cosine = std::abs(0.6f * piece.tangentU + 0.8f * piece.tangentV);
+      if (piece.Crosses(row) && u >= search.near && u < search.far &&
+        cosine >= search.minimumCosine)
+      {
+        expected.push_back(token);
+      }
+    }
+    index.VisitRow(row, search,
+      [&](int token, float u, float, float width)
+      {
+        const EpipolarIndex::Piece& piece = index.PieceOf(token);
+        EXPECT_NEAR(u, piece.ColumnAt(row), 1e-3);
+        EXPECT_FLOAT_EQ(width, piece.uncertainty / std::abs(piece.tangentV));
+        visited.push_back(token);
+      });
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(visited, expected);
+    found += static_cast<int>(expected.size());
+  }
+  EXPECT_GT(found, 500);
+}
+
+TEST(EpipolarIndex, FollowsAChainToARowAndNotBeyondItsEnd)
+{
+  RandomCameras random(8);
+  const Camera reference = random.Next(), other = random.Next();
+  const EpipolarPair pair(reference, other);
+  const EdgeChains edges = RandomChainsOf(random, 50);
+  const EpipolarIndex index(pair, edges, 0.1);
+  int followed = 0;
+  for (std::size_t chain = 0; chain < edges.NumberOfChains(); ++chain)
+  {
+    const int begin = edges.begin[chain], end = edges.begin[chain + 1];
+    EXPECT_TRUE(index.PieceOf(end - 1).Empty());
+    for (int token = begin; token < end; ++token)
+    {
+      const float row =
+        index.PieceOf(token).v + static_cast<float>(random.Uniform(-1, 1)) * (end - begin);
+      const int reached = index.Follow(token, row, 2 * (end - begin));
+      if (reached >= 0)
+      {
+        EXPECT_GE(reached, begin);
+        EXPECT_LT(reached, end - 1);
+        EXPECT_TRUE(index.PieceOf(reached).Crosses(row));
+        ++followed;
+      }
+    }
+  }
+  EXPECT_GT(followed, 100);
 }

@@ -85,3 +85,44 @@ TEST(ProximityBins, ClearedBinsAreEmpty)
   bins.Finish();
   EXPECT_FALSE(bins.Meets(1, 5, 1));
 }
+
+// Places of several images, some far along a line, held against looking at every pair.
+TEST(ProximityBins, MissNoPlaceThatMeetsAnother)
+{
+  std::mt19937 engine(11);
+  const auto uniform = [&](double low, double high)
+  { return std::uniform_real_distribution<double>(low, high)(engine); };
+  int met = 0, alone = 0, wrong = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    struct Place
+    {
+      int image;
+      float center, reach;
+    };
+    std::vector<Place> places;
+    ProximityBins bins(3);
+    bins.Clear();
+    for (int k = 0; k < 40; ++k)
+    {
+      places.push_back({ k % 3, static_cast<float>(uniform(-900, 900)),
+        static_cast<float>(k % 7 == 0 ? uniform(0, 150) : uniform(0, 3)) });
+      bins.Add(places.back().image, places.back().center, places.back().reach);
+    }
+    bins.Finish();
+    for (const Place& a : places)
+    {
+      const bool expected = std::any_of(places.begin(), places.end(),
+        [&](const Place& b) {
+          return b.image != a.image && std::abs(a.center - b.center) <= std::max(a.reach, b.reach);
+        });
+      const bool found = bins.Meets(a.image, a.center, a.reach);
+      EXPECT_TRUE(found || !expected) << trial << " " << a.center << " " << a.reach;
+      met += expected;
+      alone += !expected;
+      wrong += found && !expected;
+    }
+  }
+  EXPECT_GT(met, 1000);
+  EXPECT_LT(wrong, alone / 2); // or it would save nothing
+}

@@ -2,7 +2,6 @@
 #include "Mesh/Distance/SurfaceComparison.h"
 
 #include "Common/Error.h"
-#include "Mesh/Distance/SurfaceSamples.h"
 
 #include <gtest/gtest.h>
 
@@ -139,20 +138,4 @@ TEST(SurfaceComparison, RefusesWhatHasNoArea)
   EXPECT_THROW(CompareSurfaces(SquareMesh(0), SquareMesh(0), LimitOptions({ 0 })), Error);
   EXPECT_THROW(
     CompareSurfaces(SquareMesh(0), SquareMesh(0), LimitOptions({ std::nan("") })), Error);
-}
-
-TEST(SurfaceSamples, AreSpreadByArea)
-{
-  TriangleMesh mesh = SquareMesh(0, 1);
-  mesh.points.push_back({ -3, 0, 0 });
-  mesh.triangles.push_back({ 0, 3, 4 }); // three times as large as either of the others
-  int counts[3] = {};
-  for (const SurfaceSample& sample : SampleSurface(mesh, 5000))
-  {
-    ++counts[sample.triangle];
-    EXPECT_EQ(sample.point.x() <= 0, sample.triangle == 2);
-  }
-  EXPECT_NEAR(counts[0], 1000, 1);
-  EXPECT_NEAR(counts[1], 1000, 1);
-  EXPECT_NEAR(counts[2], 3000, 1);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Distance/TriangleTree.h"
 
-#include "Mesh/NearestOnTriangle.h"
 #include "Support/Core/TwoThreads.h"
 
 #include <gtest/gtest.h>
@@ -173,19 +172,4 @@ TEST(TriangleTree, TakesNothingAndNumbersThatAreNotFinite)
   EXPECT_EQ(found[1].triangle, -1);
   EXPECT_EQ(found[2].triangle, 1);
   EXPECT_DOUBLE_EQ(found[2].distance, 1);
-}
-
-TEST(NearestOnTriangle, OfATriangleWithoutAreaIsOnItsLongestEdge)
-{
-  const Vector3d a(0, 0, 0), b(-3, -3, -3), c(-1, -1, -1), p(-2.5, -2.5, -1.5);
-  const Vector3d weights = NearestOnTriangle(p, a, b, c);
-  const Vector3d place = weights[0] * a + weights[1] * b + weights[2] * c;
-  EXPECT_NEAR((place - p).norm(), ToSegment(p, a, b), 1e-12);
-  for (const auto& corners : { std::array<Vector3d, 3>{ a, a, b }, { a, b, a }, { b, a, a } })
-  {
-    const Vector3d w = NearestOnTriangle(p, corners[0], corners[1], corners[2]);
-    const Vector3d at = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-    EXPECT_NEAR((at - p).norm(), ToSegment(p, a, b), 1e-12);
-  }
-  EXPECT_EQ(NearestOnTriangle(p, c, c, c).sum(), 1);
 }

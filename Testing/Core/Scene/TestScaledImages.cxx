@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/ScaledImages.h"
 
-#include "Images/ImageSize.h"
 #include "Support/SyntheticModel.h"
 #include "Support/TemporaryFolder.h"
 
@@ -33,29 +32,6 @@ public:
   freespace::Scene Scene;
 };
 
-}
-
-TEST(ImageSize, IsReadFromHeaders)
-{
-  const SizedPhotographs photographs;
-  for (const std::string name : { "a.jpg", "a.png", "a.bmp", "a.tif" })
-  {
-    photographs.Add(name, 37, 300);
-    const auto size = ReadImageSize(photographs.Folder.Path("images/" + name));
-    ASSERT_TRUE(size) << name;
-    EXPECT_EQ((*size)[0], 37) << name;
-    EXPECT_EQ((*size)[1], 300) << name;
-  }
-}
-
-TEST(ImageSize, OfWhatIsNoPictureIsNotKnown)
-{
-  const TemporaryFolder folder;
-  EXPECT_FALSE(ReadImageSize(folder.Path("missing.png")));
-  EXPECT_FALSE(ReadImageSize(folder.Write("empty.jpg", "")));
-  EXPECT_FALSE(ReadImageSize(folder.Write("text.png", "no picture")));
-  EXPECT_FALSE(ReadImageSize(folder.Write("cut.png", "\x89PNG\r\n\x1a\n")));
-  EXPECT_FALSE(ReadImageSize(folder.Write("cut.jpg", "\xff\xd8\xff\xe0")));
 }
 
 TEST(ScaledImages, CamerasAndObservationsFollowThePhotographs)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FeatureGrid.h"
-#include "Mesh/SurfaceComponents.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +9,6 @@
 
 using namespace freespace;
 using Eigen::Vector3d;
-using Triangles = std::vector<std::array<std::int64_t, 3>>;
 
 namespace
 {
@@ -66,32 +64,4 @@ TEST(FeatureGrid, TakesFarPlacesAndNoPoints)
   const FeatureGrid exact({ { 1, 2, 3 } }, 0);
   EXPECT_TRUE(exact.IsNear({ 1, 2, 3 }));
   EXPECT_FALSE(exact.IsNear({ 1, 2, 3.001 }));
-}
-
-TEST(SurfaceComponents, HangTogetherByPoints)
-{
-  const Triangles triangles = { { 5, 6, 7 }, { 0, 1, 2 }, { 8, 9, 5 }, { 3, 4, 2 } };
-  EXPECT_EQ(ComponentsOf(triangles, 11), (std::vector<std::int32_t>{ 0, 1, 0, 1 }));
-  EXPECT_TRUE(ComponentsOf({}, 3).empty());
-}
-
-TEST(SurfaceComponents, OfAStripInAnyOrderAreOne)
-{
-  Triangles strip;
-  for (int i = 0; i < 1000; ++i)
-  {
-    strip.push_back({ i, i + 1, i + 2 });
-  }
-  std::shuffle(strip.begin(), strip.end(), std::mt19937(3));
-  const std::vector<std::int32_t> component = ComponentsOf(strip, 1002);
-  EXPECT_EQ(std::count(component.begin(), component.end(), 0), 1000);
-}
-
-TEST(SurfaceComponents, CrumbsAreWhatNothingSupports)
-{
-  const std::vector<std::int32_t> component = { 0, 1, 1, 1, 2, 2, 3 };
-  // The largest stays even if nothing supports it.
-  EXPECT_EQ(SupportedComponents(component, { 0, 0, 0, 0, 0, 1, 0 }),
-    (std::vector<char>{ 0, 1, 1, 1, 1, 1, 0 }));
-  EXPECT_TRUE(SupportedComponents({}, {}).empty());
 }

@@ -37,7 +37,7 @@ void ExpectFreeWithin(const ViewFreespace::Intervals& intervals, const ViewFrees
   }
 }
 
-// A map of so many triangles that the way over it is taken block by block: hills, a step and holes.
+// A map of so many triangles that the way over it is taken tile by tile: hills, a step and holes.
 DisparityMap FineMap(unsigned int seed)
 {
   std::mt19937 random(seed);
