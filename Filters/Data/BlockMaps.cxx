@@ -39,7 +39,7 @@ const SharedMaps& BlockMaps::Of(
 
 vtkSmartPointer<vtkMultiBlockDataSet> BlockMaps::Remove(vtkMultiBlockDataSet* maps, int index)
 {
-  const auto others = WithoutView(maps, index);
+  auto others = WithoutView(maps, index);
   const std::size_t removed = static_cast<std::size_t>(index);
   this->Blocks.resize(maps->GetNumberOfBlocks());
   this->Maps.resize(this->Blocks.size());
