@@ -10,7 +10,6 @@ namespace freespace
 {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 namespace
 {
