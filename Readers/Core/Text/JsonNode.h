@@ -31,7 +31,10 @@ public:
   JsonNode At(const std::string& key) const;
   std::vector<JsonNode> Elements() const;
   bool IsText() const { return this->Value->is_string(); }
-  bool IsFilled() const { return !this->IsText() || *this->Value != ""; }
+  bool IsFilled() const
+  {
+    return !this->IsText() || !this->Value->get_ref<const std::string&>().empty();
+  }
 
   /// A non-empty string, in the encoding of file names.
   std::string Text() const;
