@@ -63,7 +63,7 @@ cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number)
 cv::Ptr<cv::aruco::CharucoBoard> MakeCharuco(
   const Board& board, const cv::Ptr<cv::aruco::Dictionary>& dictionary, const std::vector<int>& ids)
 {
-  const auto charuco = cv::aruco::CharucoBoard::create(board.columns, board.rows,
+  auto charuco = cv::aruco::CharucoBoard::create(board.columns, board.rows,
     static_cast<float>(board.square), static_cast<float>(board.marker), dictionary);
   charuco->ids = ids;
   return charuco;
@@ -81,7 +81,7 @@ cv::Ptr<cv::aruco::Dictionary> FindDictionary(const Board& board)
   {
     if (board.dictionary == entry.name)
     {
-      const auto dictionary = PredefinedDictionary(entry.number);
+      auto dictionary = PredefinedDictionary(entry.number);
       if (board.columns * board.rows / 2 > dictionary->bytesList.rows)
       {
         throw Error("The dictionary " + board.dictionary + " has " +

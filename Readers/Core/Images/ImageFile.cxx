@@ -17,7 +17,7 @@ cv::Mat LoadImage(const std::string& path, int width, int height)
     throw Error("Cannot read the image " + path + ": there is no such file.");
   }
   // Cameras know the pixels as they are stored.
-  const cv::Mat image = DecodeImage(path, true);
+  cv::Mat image = DecodeImage(path, true);
   if (image.empty())
   {
     throw Error("Cannot read the image " + path + ": it is damaged or of an unknown format.");

@@ -56,7 +56,7 @@ std::array<double, 2> FocalLengths(const JsonNode& node, const Version& version,
 std::string KindOf(const JsonNode& node)
 {
   const std::string type = node.At("type").Text();
-  const std::string distortion =
+  std::string distortion =
     type == "pinhole" && node.Has("distortionType") ? node.At("distortionType").Text() : type;
   const std::pair<const char*, const char*> same[] = { { "none", "pinhole" },
     { "radialk1", "radial1" }, { "radialk3", "radial3" }, { "fisheye", "fisheye4" } };

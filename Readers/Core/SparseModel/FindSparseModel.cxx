@@ -89,7 +89,7 @@ std::string FindSparseModel(const std::string& path, std::string* told)
   }
   const auto largest = std::max_element(
     found.begin(), found.end(), [](const Found& a, const Found& b) { return a.size < b.size; });
-  const std::string model = largest->folder.string();
+  std::string model = largest->folder.string();
   if (told)
   {
     *told = "the model is " + model +

@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 Json Parse(const std::string& file)
 {
   std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
+  Json json = Json::parse(stream, nullptr, false);
   if (!json.is_object())
   {
     Fail(file, "it is no JSON object with the key steps");

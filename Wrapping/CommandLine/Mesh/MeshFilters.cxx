@@ -189,7 +189,7 @@ Surface Smooth(Session& session, const std::string& length, vtkPolyData* surface
   filter->NormalizeCoordinatesOn();
   filter->FeatureEdgeSmoothingOn(); // of 45 degrees: their vertices move along them
   filter->BoundarySmoothingOff();
-  const Surface smooth = Run(session, filter, "smooth", surface);
+  Surface smooth = Run(session, filter, "smooth", surface);
   LimitMoves(surface, smooth, NumberOf(length));
   return smooth;
 }
@@ -223,7 +223,7 @@ Surface Fill(Session& session, const std::string& size, vtkPolyData* surface)
   orient->ConsistencyOn();
   orient->ComputePointNormalsOff();
   orient->ComputeCellNormalsOn(); // without any normals the filter does nothing
-  const Surface oriented = Run(session, orient, "fill", filled);
+  Surface oriented = Run(session, orient, "fill", filled);
   oriented->GetCellData()->RemoveArray("Normals");
   return oriented;
 }
