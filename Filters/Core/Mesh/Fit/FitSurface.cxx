@@ -131,7 +131,7 @@ double SurfaceFitter::RelativeDeviation(const SeenFeature& feature) const
 void SurfaceFitter::FindContacts(const CancellationFlag& stop)
 {
   const TriangleGrid grid(this->Points, this->Corners, 2 * this->MedianEdge);
-  this->Contacts.assign(this->Features.size(), Contact());
+  this->Contacts.resize(this->Features.size());
   this->Parallel(this->Features.size(),
     [&](std::size_t begin, std::size_t end)
     {
@@ -140,7 +140,8 @@ void SurfaceFitter::FindContacts(const CancellationFlag& stop)
         const SeenFeature& feature = this->Features[f];
         const double depth = feature.sight.norm();
         Contact& contact = this->Contacts[f];
-        contact.place = grid.Nearest(feature.point, feature.sight, this->Options.reach * depth);
+        contact.place = grid.Nearest(feature.point, feature.sight, this->Options.reach * depth,
+          contact.place.triangle); // of the last round
         if (contact.place.triangle < 0)
         {
           continue;

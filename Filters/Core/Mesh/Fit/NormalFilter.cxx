@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace freespace
@@ -19,34 +20,32 @@ namespace
 constexpr int GuideIterations = 4;
 constexpr double GuideWidth = 2;
 
-// Like a Gaussian of the deviation, but it ends at 2.4 deviations.
-double MixingWeight(const Vector3d& a, const Vector3d& b, double deviation)
-{
-  const double x = 1 - (a - b).squaredNorm() / (6 * deviation * deviation);
-  return x > 0 ? x * x * x : 0.0;
-}
+// Unit normals with a zero behind, so that they are added and compared as one vector of the processor. Single
+// precision: its error is far below the noise.
+using Normals = std::vector<Eigen::Vector4f>;
 
-// Averages each normal with its neighbours', weighted by the similarity of their guides.
-void MixOnce(const std::vector<Vector3d>& normals, const std::vector<Vector3d>& guides,
-  const std::vector<double>& areas, const MeshEdges& edges, double deviation,
-  std::vector<Vector3d>& mixed, const ParallelFor& parallelFor)
+// Averages each normal with its neighbours', weighted by areas and by the similarity of their guides: like a Gaussian of
+// the deviation, but it ends at 2.4 deviations.
+void MixOnce(const Normals& normals, const Normals& guides, const std::vector<float>& areas,
+  const MeshEdges& edges, double deviation, Normals& mixed, const ParallelFor& parallelFor)
 {
+  const auto scale = static_cast<float>(1 / (6 * deviation * deviation));
   parallelFor(normals.size(),
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        Vector3d sum = areas[t] * normals[t];
+        Eigen::Vector4f sum = areas[t] * normals[t];
         for (const int other : edges.opposite[t])
         {
           if (other >= 0)
           {
-            sum +=
-              MixingWeight(guides[t], guides[other], deviation) * areas[other] * normals[other];
+            const float x = std::max(0.f, 1 - scale * (guides[t] - guides[other]).squaredNorm());
+            sum += x * x * x * areas[other] * normals[other];
           }
         }
-        const double length = sum.norm();
-        mixed[t] = length > 0 ? Vector3d(sum / length) : normals[t];
+        const float squared = sum.squaredNorm();
+        mixed[t] = squared > 0 ? Eigen::Vector4f(sum / std::sqrt(squared)) : normals[t];
       }
     });
 }
@@ -88,18 +87,31 @@ void TriangleNormals(const std::vector<Vector3d>& points,
 void FilterNormals(std::vector<Vector3d>& normals, const std::vector<double>& areas,
   const MeshEdges& edges, const NormalFilterOptions& options, const ParallelFor& parallelFor)
 {
-  std::vector<Vector3d> guides, mixed(normals.size());
+  Normals smooth(normals.size()), guides, mixed(normals.size());
+  std::vector<float> weights(areas.size());
+  const double unit = areas.empty() ? 1 : *std::max_element(areas.begin(), areas.end());
+  for (std::size_t t = 0; t < normals.size(); ++t)
+  {
+    smooth[t] << normals[t].cast<float>(), 0;
+    weights[t] = static_cast<float>(unit > 0 ? areas[t] / unit : 0);
+  }
   for (int i = 0; i < options.iterations; ++i)
   {
-    guides = normals;
+    guides = smooth;
     // Later rounds have little noise left: the normals are their own guides.
     for (int j = 0; j < GuideIterations && 2 * i < options.iterations; ++j)
     {
-      MixOnce(guides, guides, areas, edges, GuideWidth * options.deviation, mixed, parallelFor);
+      MixOnce(guides, guides, weights, edges, GuideWidth * options.deviation, mixed, parallelFor);
       guides.swap(mixed);
     }
-    MixOnce(normals, guides, areas, edges, options.deviation, mixed, parallelFor);
-    normals.swap(mixed);
+    MixOnce(smooth, guides, weights, edges, options.deviation, mixed, parallelFor);
+    smooth.swap(mixed);
+  }
+  for (std::size_t t = 0; t < normals.size(); ++t)
+  {
+    const Vector3d normal = smooth[t].head<3>().cast<double>();
+    const double length = normal.norm();
+    normals[t] = length > 0 ? Vector3d(normal / length) : normals[t];
   }
 }
 

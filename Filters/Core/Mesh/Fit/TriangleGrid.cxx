@@ -24,18 +24,20 @@ TriangleGrid::TriangleGrid(
   {
     this->Low = box.min();
   }
-  this->FindPlanes();
+  this->FindBounds();
   this->ListTriangles();
 }
 
-void TriangleGrid::FindPlanes()
+void TriangleGrid::FindBounds()
 {
-  this->Planes.reserve(this->Corners.size());
-  for (const auto& [a, b, c] : this->Corners)
+  this->Around.reserve(this->Corners.size());
+  for (const auto& [i, j, k] : this->Corners)
   {
-    const Vector3d& corner = this->Points[a];
-    const Vector3d normal = (this->Points[b] - corner).cross(this->Points[c] - corner);
-    this->Planes.push_back({ corner, normal, normal.squaredNorm() });
+    const Vector3d &a = this->Points[i], &b = this->Points[j], &c = this->Points[k];
+    const Vector3d center = (a + b + c) / 3, normal = (b - a).cross(c - a);
+    const double radius = std::sqrt(std::max(
+      { (a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm() }));
+    this->Around.push_back({ center, radius, normal, normal.squaredNorm() });
   }
 }
 
@@ -91,6 +93,37 @@ std::uint64_t TriangleGrid::KeyOf(const Index& cell) const
   return this->Bits == 0 ? 0 : (mixed ^ mixed >> 29) * 0xbf58476d1ce4e5b9u >> (64 - this->Bits);
 }
 
+// Whether a triangle does not face the direction, or its sphere or plane is farther than a distance, with a margin for
+// rounding.
+bool TriangleGrid::IsFarther(
+  int triangle, const Vector3d& point, const Vector3d& direction, double distance) const
+{
+  constexpr double margin = 1.000001;
+  const Bounds& around = this->Around[triangle];
+  const Vector3d offset = point - around.center;
+  const double most = margin * (distance + around.radius);
+  if (offset.squaredNorm() > most * most || direction.dot(around.normal) >= 0)
+  {
+    return true;
+  }
+  const double above = around.normal.dot(offset);
+  return above * above > margin * distance * distance * around.squaredNormal;
+}
+
+void TriangleGrid::Compare(
+  int triangle, const Vector3d& point, TrianglePlace& place, double& distance) const
+{
+  const auto& [i, j, k] = this->Corners[triangle];
+  const Vector3d &a = this->Points[i], &b = this->Points[j], &c = this->Points[k];
+  const Vector3d weights = NearestOnTriangle(point, a, b, c);
+  const double found = (weights[0] * a + weights[1] * b + weights[2] * c - point).norm();
+  if (found < distance || (found == distance && triangle < place.triangle))
+  {
+    distance = found;
+    place = { triangle, weights };
+  }
+}
+
 void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double reach,
   TrianglePlace& place, double& distance) const
 {
@@ -105,26 +138,9 @@ void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double
         const std::uint64_t key = this->KeyOf(at);
         for (std::uint32_t i = this->Begin[key]; i < this->Begin[key + 1]; ++i)
         {
-          const int t = this->List[i];
-          const Plane& plane = this->Planes[t];
-          if (direction.dot(plane.normal) >= 0)
+          if (!this->IsFarther(this->List[i], point, direction, distance))
           {
-            continue;
-          }
-          // Farther from the triangle's plane than the nearest place so far, with a margin for rounding.
-          const double above = plane.normal.dot(point - plane.corner);
-          if (above * above > 1.000001 * distance * distance * plane.squaredNormal)
-          {
-            continue;
-          }
-          const Vector3d &a = plane.corner, &b = this->Points[this->Corners[t][1]],
-                         &c = this->Points[this->Corners[t][2]];
-          const Vector3d weights = NearestOnTriangle(point, a, b, c);
-          const double found = (weights[0] * a + weights[1] * b + weights[2] * c - point).norm();
-          if (found < distance || (found == distance && t < place.triangle))
-          {
-            distance = found;
-            place = { t, weights };
+            this->Compare(this->List[i], point, place, distance);
           }
         }
       }
@@ -133,7 +149,7 @@ void TriangleGrid::Look(const Vector3d& point, const Vector3d& direction, double
 }
 
 TrianglePlace TriangleGrid::Nearest(
-  const Vector3d& point, const Vector3d& direction, double reach) const
+  const Vector3d& point, const Vector3d& direction, double reach, int hint) const
 {
   TrianglePlace place;
   if (!point.allFinite())
@@ -141,16 +157,24 @@ TrianglePlace TriangleGrid::Nearest(
     return place;
   }
   double distance = reach;
+  if (hint >= 0 && !this->IsFarther(hint, point, direction, distance))
+  {
+    this->Compare(hint, point, place, distance);
+  }
   // Mostly it is very near.
-  const double near = 0.25 * this->Cell;
-  if (near < reach)
+  for (const double share : { 0.05, 0.25 })
   {
-    this->Look(point, direction, near, place, distance);
+    const double near = share * this->Cell;
+    if (near < distance)
+    {
+      this->Look(point, direction, near, place, distance);
+      if (distance <= near)
+      {
+        return place;
+      }
+    }
   }
-  if (place.triangle < 0 || distance > near)
-  {
-    this->Look(point, direction, distance, place, distance);
-  }
+  this->Look(point, direction, distance, place, distance);
   return place;
 }
 

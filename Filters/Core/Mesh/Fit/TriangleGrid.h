@@ -29,24 +29,31 @@ public:
   /// Cells should be somewhat larger than the triangles. O(n log n).
   TriangleGrid(const std::vector<Eigen::Vector3d>& points, const Triangles& triangles, double cell);
 
-  /// The nearest point within a reach on the triangles that face an eye looking along a direction.
-  TrianglePlace Nearest(
-    const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach) const;
+  /// The nearest point within a reach on the triangles that face an eye looking along a direction. A triangle that is
+  /// probably near (-1: none) makes it faster and no different.
+  TrianglePlace Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
+    double reach, int hint = -1) const;
 
 private:
   using Index = Eigen::Matrix<std::int64_t, 3, 1>;
 
-  /// Of a triangle, so that most are rejected without a look at its corners.
-  struct Plane
+  /// A sphere around a triangle and its plane, so that most are rejected without a look at its corners.
+  struct Bounds
   {
-    Eigen::Vector3d corner, normal; ///< of twice the triangle's area
+    Eigen::Vector3d center;
+    double radius;
+    Eigen::Vector3d normal; ///< its length is twice the triangle's area
     double squaredNormal;
   };
 
-  void FindPlanes();
+  void FindBounds();
   void ListTriangles();
   Index CellOf(const Eigen::Vector3d& point) const;
   std::uint64_t KeyOf(const Index& cell) const;
+  bool IsFarther(int triangle, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
+    double distance) const;
+  void Compare(
+    int triangle, const Eigen::Vector3d& point, TrianglePlace& place, double& distance) const;
   void Look(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, double reach,
     TrianglePlace& place, double& distance) const;
 
@@ -54,7 +61,7 @@ private:
   const Triangles& Corners;
   double Cell;
   Eigen::Vector3d Low = Eigen::Vector3d::Zero();
-  std::vector<Plane> Planes;        // per triangle
+  std::vector<Bounds> Around;       // per triangle
   int Bits = 0;                     // of the table's size
   std::vector<std::uint32_t> Begin; // per place of a hash table, of its triangles
   std::vector<std::int32_t> List;
