@@ -7,6 +7,7 @@
 #include "Data/ObservedTriangles.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
+#include "Files/GlobalShift.h"
 #include "Surface/SurfaceFile.h"
 #include "XML/XMLFileCheck.h"
 
@@ -14,6 +15,7 @@
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkErrorCode.h>
 #include <vtkObjectFactory.h>
@@ -31,6 +33,32 @@ vtkStandardNewMacro(vtkSurfaceReader);
 namespace
 {
 
+// Adds the global shift of a file to its points, see vtkSurfaceWriter::GlobalShift.
+void AddGlobalShift(vtkPolyData* surface, const Eigen::Vector3d& shift)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(surface->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point;
+    surface->GetPoint(i, point.data());
+    point += shift;
+    points->SetPoint(i, point.data());
+  }
+  surface->SetPoints(points);
+}
+
+void AddGlobalShiftOfField(vtkPolyData* surface)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray("GlobalShift");
+  if (array && array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 3)
+  {
+    AddGlobalShift(surface, Eigen::Vector3d(array->GetTuple(0)));
+    surface->GetFieldData()->RemoveArray("GlobalShift");
+  }
+}
+
 vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
 {
   freespace::CheckXMLFile(fileName);
@@ -45,17 +73,22 @@ vtkSmartPointer<vtkPolyData> ReadVTP(const std::string& fileName)
   reader->Update();
   vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
   freespace::CheckCells(surface, fileName);
+  AddGlobalShiftOfField(surface);
   return surface;
 }
 
-// The viewpoint of a surface is a comment of its file, see SurfaceViewpoint.h.
-void AddViewpoint(const freespace::SurfaceFile& file, vtkPolyData* surface)
+// The viewpoint of a surface and its global shift are comments of its file, see SurfaceViewpoint.h and GlobalShift.h.
+void ReadComments(const freespace::SurfaceFile& file, vtkPolyData* surface)
 {
   for (const std::string& comment : file.comments)
   {
     if (const auto viewpoint = freespace::ViewpointFromComment(comment))
     {
       freespace::AddCamera(surface, *viewpoint, "");
+    }
+    if (const auto shift = freespace::GlobalShiftFromComment(comment))
+    {
+      AddGlobalShift(surface, *shift);
     }
   }
 }
@@ -93,7 +126,7 @@ vtkSmartPointer<vtkPolyData> SurfaceFrom(const freespace::SurfaceFile& file)
     std::memcpy(colors->GetPointer(0), file.colors.data(), 3 * file.colors.size());
     surface->GetPointData()->SetScalars(colors);
   }
-  AddViewpoint(file, surface);
+  ReadComments(file, surface);
   return surface;
 }
 

@@ -2,13 +2,13 @@
 #include "PlyWriter.h"
 
 #include "Common/Error.h"
+#include "Files/GlobalShift.h"
 
 #include <vtkCellArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <array>
 #include <fstream>
 #include <limits>
 
@@ -37,12 +37,18 @@ void CheckCounts(vtkPolyData* surface, const std::string& fileName)
   }
 }
 
-bool AreSingle(vtkPolyData* surface)
+Eigen::Vector3d ShiftedPoint(vtkPolyData* surface, vtkIdType i, const Eigen::Vector3d& globalShift)
+{
+  Eigen::Vector3d point;
+  surface->GetPoint(i, point.data());
+  return point - globalShift;
+}
+
+bool AreSingle(vtkPolyData* surface, const Eigen::Vector3d& globalShift)
 {
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
-    double point[3];
-    surface->GetPoint(i, point);
+    const Eigen::Vector3d point = ShiftedPoint(surface, i, globalShift);
     if (!IsSingle(point[0]) || !IsSingle(point[1]) || !IsSingle(point[2]))
     {
       return false;
@@ -57,7 +63,10 @@ std::string PlyHeader::Text() const
 {
   const std::string type = this->isDouble ? "double" : "float";
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment VTK generated PLY File\n";
-  text += this->comment.empty() ? "" : "comment " + this->comment + "\n";
+  for (const std::string& comment : this->comments)
+  {
+    text += comment.empty() ? "" : "comment " + comment + "\n";
+  }
   text += "obj_info vtkPolyData points and polygons: vtk4.0\nelement vertex " +
     std::to_string(this->vertices) + "\n";
   for (const char* axis : { "x", "y", "z" })
@@ -77,14 +86,15 @@ std::string PlyHeader::Text() const
 }
 
 bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string& comment,
-  const std::string& fileName)
+  const Eigen::Vector3d& globalShift, const std::string& fileName)
 {
   CheckCounts(surface, fileName);
   auto* rgb = vtkUnsignedCharArray::SafeDownCast(surface->GetPointData()->GetArray(colors.c_str()));
   vtkDataArray* normals = surface->GetPointData()->GetArray("Normals");
   PlyHeader header;
-  header.comment = comment;
-  header.isDouble = surface->GetPoints()->GetDataType() != VTK_FLOAT && !AreSingle(surface);
+  header.comments = { comment, GlobalShiftComment(globalShift) };
+  const bool areFloats = surface->GetPoints()->GetDataType() == VTK_FLOAT && globalShift.isZero(0);
+  header.isDouble = !areFloats && !AreSingle(surface, globalShift);
   header.isColored = rgb && rgb->GetNumberOfComponents() >= 3;
   header.hasNormals = normals && normals->GetNumberOfComponents() == 3;
   header.vertices = surface->GetNumberOfPoints();
@@ -93,9 +103,7 @@ bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string
   file << header.Text();
   for (vtkIdType i = 0; i < header.vertices && file; ++i)
   {
-    std::array<double, 3> point;
-    surface->GetPoint(i, point.data());
-    for (double coordinate : point)
+    for (double coordinate : ShiftedPoint(surface, i, globalShift))
     {
       header.isDouble ? Put(file, coordinate) : Put(file, static_cast<float>(coordinate));
     }

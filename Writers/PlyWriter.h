@@ -4,8 +4,11 @@
 
 #include "vtkFreespaceWritersModule.h" // for the export macro
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -15,7 +18,7 @@ namespace freespace
 /// What the header of a binary PLY says.
 struct PlyHeader
 {
-  std::string comment; ///< one line, or empty
+  std::vector<std::string> comments; ///< one line each; empty ones are left out
   bool isDouble = false;
   bool hasNormals = false; ///< single precision
   bool isColored = false;
@@ -32,10 +35,11 @@ inline bool IsSingle(double coordinate)
 
 /// Writes the points and polygons of a surface as a binary PLY, in double precision where single precision
 /// does not keep every coordinate, with the colours of the points that `colors`
-/// names, and the normals of the array Normals, where they are. False where the
-/// disk fails. Throws Error where there are more points than a PLY can count.
+/// names, and the normals of the array Normals, where they are. The global shift is subtracted from the points and
+/// is a comment, after the given one. False where the disk fails. Throws Error where there are more points than a PLY
+/// can count.
 bool WritePLY(vtkPolyData* surface, const std::string& colors, const std::string& comment,
-  const std::string& fileName);
+  const Eigen::Vector3d& globalShift, const std::string& fileName);
 
 }
 

@@ -2,9 +2,11 @@
 #include "vtkOccupancyMapWriter.h"
 
 #include "Files/AtomicOutput.h"
+#include "Files/GlobalShift.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Common/ParallelForWithProgress.h"
+#include "Data/Boxes.h"
 #include "Data/ViewBlocks.h"
 #include "Data/ViewInput.h"
 #include "Execution/AlgorithmProgress.h"
@@ -85,10 +87,12 @@ enum Cell : unsigned char
 struct Lattice
 {
   double side = 0;
+  Eigen::Vector3d shift; // of its origin
   std::array<std::int64_t, 3> first = {};
   std::array<std::int64_t, 3> count = {};
 
-  Lattice(const double bounds[6], double resolution)
+  Lattice(const double bounds[6], double resolution, const Eigen::Vector3d& globalShift)
+    : shift(globalShift)
   {
     double longest = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -99,13 +103,14 @@ struct Lattice
     double cells = 1;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double low = std::floor(bounds[2 * axis] / this->side);
-      const double high = std::floor(bounds[2 * axis + 1] / this->side);
+      const double low = std::floor((bounds[2 * axis] - this->shift[axis]) / this->side);
+      const double high = std::floor((bounds[2 * axis + 1] - this->shift[axis]) / this->side);
       cells *= high - low + 1;
       if (!(low >= -32768 && high < 32768 && cells <= 1e9))
       {
         throw Error("A resolution of " + std::to_string(this->side) +
-          " asks for more cells than an OctoMap can hold around its origin, or a billion.");
+          " asks for more cells than an OctoMap can hold around its origin, which a global shift "
+          "moves, or a billion.");
       }
       this->first[axis] = static_cast<std::int64_t>(low);
       this->count[axis] = static_cast<std::int64_t>(high - low) + 1;
@@ -114,7 +119,7 @@ struct Lattice
 
   std::int64_t NumberOfCells() const { return this->count[0] * this->count[1] * this->count[2]; }
 
-  /// Of a cell; they are counted along x, then y, then z.
+  /// Of a cell, less the shift; they are counted along x, then y, then z.
   Eigen::Vector3d Middle(std::int64_t cell) const
   {
     const std::int64_t index[3] = { cell % this->count[0], cell / this->count[0] % this->count[1],
@@ -138,7 +143,7 @@ void ClassifyCells(const Lattice& lattice, const FreespaceUnion& phi, const Look
     {
       for (std::size_t i = begin * together; i < std::min(end * together, cells.size()); ++i)
       {
-        const Eigen::Vector3d point = lattice.Middle(first + i);
+        const Eigen::Vector3d point = lattice.Middle(first + i) + lattice.shift;
         cells[i] = !lookedAt(point) ? Unknown : phi.IsFree(point) ? Free : Occupied;
       }
     });
@@ -219,8 +224,18 @@ private:
   std::int64_t Written = 0;
 };
 
-void WriteTree(
-  const octomap::OcTree& tree, const AtomicOutput& target, bool isBinary, const Progress& progress)
+// OctoMap's own functions write no comment of ours. Its readers skip it.
+void WriteShifted(
+  const octomap::OcTree& tree, bool isBinary, const std::string& comment, std::ostream& stream)
+{
+  stream << "# Octomap OcTree " << (isBinary ? "binary " : "") << "file\n# " << comment << "\nid "
+         << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution()
+         << "\ndata\n";
+  isBinary ? tree.writeBinaryData(stream) : tree.writeData(stream);
+}
+
+void WriteTree(const octomap::OcTree& tree, const AtomicOutput& target, bool isBinary,
+  const Eigen::Vector3d& globalShift, const Progress& progress)
 {
   constexpr double bytesPerNode = 5.0, bytesPerBinaryNode = 2.0; // at most
   WatchedFile file(
@@ -230,7 +245,15 @@ void WriteTree(
   bool written = false;
   try
   {
-    written = isBinary ? tree.writeBinaryConst(stream) : tree.write(stream);
+    if (globalShift.isZero(0))
+    {
+      written = isBinary ? tree.writeBinaryConst(stream) : tree.write(stream);
+    }
+    else
+    {
+      WriteShifted(tree, isBinary, GlobalShiftComment(globalShift), stream);
+      written = stream.good();
+    }
   }
   catch (const std::ios::failure&)
   {
@@ -302,7 +325,13 @@ void vtkOccupancyMapWriter::WriteData()
       {
         throw Error("Cannot write " + this->FileName + ": the disparity maps have no features.");
       }
-      const Lattice lattice(bounds, this->Resolution);
+      const Eigen::Vector3d shift = this->AutomaticGlobalShift ? SuggestGlobalShift(BoxOf(bounds))
+                                                               : Eigen::Vector3d(this->GlobalShift);
+      if (!shift.allFinite())
+      {
+        throw Error("The global shift of an occupancy map must be finite.");
+      }
+      const Lattice lattice(bounds, this->Resolution, shift);
       octomap::OcTree tree(lattice.side);
       const LookedAt lookedAt(MapsFromBlocks(blocks), progress.Part(Built, Rendered));
       core->IndexForPoints(progress.Part(Rendered, Indexed));
@@ -315,7 +344,7 @@ void vtkOccupancyMapWriter::WriteData()
             Prune(tree, tree.getRoot(), stop);
           }
         });
-      WriteTree(tree, target, ending == ".bt", progress.Part(Pruned, 1.0));
+      WriteTree(tree, target, ending == ".bt", shift, progress.Part(Pruned, 1.0));
       target.Commit();
     }));
 }
@@ -336,6 +365,9 @@ void vtkOccupancyMapWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "GlobalShift: " << this->GlobalShift[0] << " " << this->GlobalShift[1] << " "
+     << this->GlobalShift[2] << "\n";
+  os << indent << "AutomaticGlobalShift: " << this->AutomaticGlobalShift << "\n";
   os << indent << "HullMargin: " << this->HullMargin << "\n";
   os << indent << "MinimumViews: " << this->MinimumViews << "\n";
   os << indent << "Contradiction: " << this->Contradiction << "\n";

@@ -52,6 +52,19 @@ public:
 
   ///@{
   /**
+   * Subtracted from all coordinates: an OctoMap reaches 32,768 cells from its origin, and is read in single precision. A
+   * comment in the file's header tells it: "# global shift X Y Z". Default 0, 0, 0. AutomaticGlobalShift, default
+   * off, chooses it by the hull, as vtkSurfaceWriter::SuggestGlobalShift does.
+   */
+  vtkSetVector3Macro(GlobalShift, double);
+  vtkGetVector3Macro(GlobalShift, double);
+  vtkSetMacro(AutomaticGlobalShift, vtkTypeBool);
+  vtkGetMacro(AutomaticGlobalShift, vtkTypeBool);
+  vtkBooleanMacro(AutomaticGlobalShift, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * As in vtkFreespaceUnion, with its defaults. What is out of range is an error that WriteData reports.
    */
   vtkSetMacro(HullMargin, double);
@@ -89,6 +102,8 @@ protected:
 
   std::string FileName;
   double Resolution = 0.0;
+  double GlobalShift[3] = { 0, 0, 0 };
+  vtkTypeBool AutomaticGlobalShift = false;
   // Defaults are those of freespace::FreespaceUnionOptions.
   double HullMargin;
   int MinimumViews;

@@ -2,24 +2,30 @@
 #include "vtkSurfaceWriter.h"
 
 #include "Files/AtomicOutput.h"
+#include "Files/GlobalShift.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
+#include "Data/Boxes.h"
 #include "Data/SurfaceViewpoint.h"
 #include "PlyWriter.h"
 #include "RunWriter.h"
 
+#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
 #include <vtkObjectFactory.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <fstream>
 
 vtkStandardNewMacro(vtkSurfaceWriter);
 
@@ -34,48 +40,114 @@ bool WriteWith(Writer* writer, vtkPolyData* surface, const std::string& fileName
   return writer->Write() && writer->GetErrorCode() == vtkErrorCode::NoError;
 }
 
-// An STL has single precision, in which the vertices of a surface far from the origin fall together.
-void CheckSinglePrecision(vtkPolyData* surface, const std::string& fileName)
+vtkSmartPointer<vtkPolyData> Shifted(vtkPolyData* surface, const Eigen::Vector3d& globalShift)
 {
-  constexpr double mostRounding = 1e-5; // of the diagonal
-  double bounds[6];
-  surface->GetBounds(bounds);
-  const double room = mostRounding * surface->GetLength();
-  for (const double bound : bounds)
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(surface);
+  if (globalShift.isZero(0))
   {
-    if (!(std::abs(bound) * std::numeric_limits<float>::epsilon() / 2 <= room &&
-          std::abs(bound) <= std::numeric_limits<float>::max()))
-    {
-      throw freespace::Error("Cannot write " + fileName +
-        ": an STL has single precision, which is too little for a surface so far from the origin; "
-        "a .ply, .obj or .vtp keeps it.");
-    }
+    return result;
   }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(surface->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point;
+    surface->GetPoint(i, point.data());
+    point -= globalShift;
+    points->SetPoint(i, point.data());
+  }
+  result->SetPoints(points);
+  return result;
 }
 
-bool WriteByEnding(vtkPolyData* surface, const std::string& ending, const std::string& fileName,
+// An STL has single precision, in which the vertices of a surface far from the origin fall together.
+bool WriteSTL(vtkPolyData* shifted, const std::string& shiftComment, const std::string& fileName,
   const std::string& target)
+{
+  constexpr std::size_t longest = 79; // the header has 80 bytes
+  if (shiftComment.size() > longest)
+  {
+    throw freespace::Error(
+      "Cannot write " + target + ": an STL's header holds no global shift with so many digits.");
+  }
+  if (!freespace::SufficesSingle(freespace::BoxOf(shifted->GetBounds())))
+  {
+    throw freespace::Error("Cannot write " + target +
+      ": an STL has single precision, which is too little for a surface so far from the origin; "
+      "a .ply, .obj or .vtp keeps it, or a global shift.");
+  }
+  vtkNew<vtkSTLWriter> writer;
+  writer->SetFileTypeToBinary();
+  if (!shiftComment.empty())
+  {
+    writer->SetHeader(shiftComment.c_str());
+  }
+  return WriteWith(writer.Get(), shifted, fileName);
+}
+
+bool WriteOBJ(vtkPolyData* shifted, const std::string& shiftComment, const std::string& fileName)
+{
+  vtkNew<vtkOBJWriter> writer;
+  if (!WriteWith(writer.Get(), shifted, fileName))
+  {
+    return false;
+  }
+  if (!shiftComment.empty())
+  {
+    std::ofstream file(fileName, std::ios::app);
+    file << "# " << shiftComment << "\n";
+    file.close();
+    return static_cast<bool>(file);
+  }
+  return true;
+}
+
+bool WriteVTP(vtkPolyData* shifted, const Eigen::Vector3d& globalShift, const std::string& fileName)
+{
+  if (!globalShift.isZero(0))
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName("GlobalShift");
+    values->SetNumberOfComponents(3);
+    values->InsertNextTuple(globalShift.data());
+    vtkNew<vtkFieldData> fields; // the surface's own stay as they are
+    fields->PassData(shifted->GetFieldData());
+    fields->AddArray(values);
+    shifted->SetFieldData(fields);
+  }
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  return WriteWith(writer.Get(), shifted, fileName);
+}
+
+bool WriteByEnding(vtkPolyData* surface, const Eigen::Vector3d& globalShift,
+  const std::string& ending, const std::string& fileName, const std::string& target)
 {
   if (ending == ".ply")
   {
-    return freespace::WritePLY(surface, "RGB", freespace::ViewpointComment(surface), fileName);
+    return freespace::WritePLY(
+      surface, "RGB", freespace::ViewpointComment(surface), globalShift, fileName);
   }
+  const auto shifted = Shifted(surface, globalShift);
+  const std::string comment = freespace::GlobalShiftComment(globalShift);
   if (ending == ".stl")
   {
-    CheckSinglePrecision(surface, target);
-    vtkNew<vtkSTLWriter> writer;
-    writer->SetFileTypeToBinary();
-    return WriteWith(writer.Get(), surface, fileName);
+    return WriteSTL(shifted, comment, fileName, target);
   }
   if (ending == ".obj")
   {
-    vtkNew<vtkOBJWriter> writer;
-    return WriteWith(writer.Get(), surface, fileName);
+    return WriteOBJ(shifted, comment, fileName);
   }
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  return WriteWith(writer.Get(), surface, fileName);
+  return WriteVTP(shifted, globalShift, fileName);
 }
 
+}
+
+void vtkSurfaceWriter::SuggestGlobalShift(const double bounds[6], double shift[3])
+{
+  const Eigen::Vector3d suggested = freespace::SuggestGlobalShift(freespace::BoxOf(bounds));
+  std::copy_n(suggested.data(), 3, shift);
 }
 
 bool vtkSurfaceWriter::CanWriteFile(const std::string& fileName)
@@ -110,7 +182,12 @@ void vtkSurfaceWriter::WriteData()
       const std::string ending = freespace::LowerCaseExtension(this->FileName);
       const std::filesystem::path written =
         std::filesystem::path(target.Path()).replace_extension(ending);
-      if (!WriteByEnding(surface, ending, written.string(), this->FileName))
+      const Eigen::Vector3d shift(this->GlobalShift);
+      if (!shift.allFinite())
+      {
+        throw freespace::Error("The global shift of a surface must be finite.");
+      }
+      if (!WriteByEnding(surface, shift, ending, written.string(), this->FileName))
       {
         throw target.Failure();
       }
@@ -123,4 +200,6 @@ void vtkSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "GlobalShift: " << this->GlobalShift[0] << " " << this->GlobalShift[1] << " "
+     << this->GlobalShift[2] << "\n";
 }

@@ -5,7 +5,7 @@
  *
  * The file is written beside its target and renamed, so that the target is either the old file or the
  * complete new one. PLY and STL are binary; a PLY has double precision if single precision does not
- * represent every coordinate, and an STL that would lose the surface is an error. Only VTP stores all data
+ * represent every coordinate, and an STL that would lose the surface is an error: see GlobalShift. Only VTP stores all data
  * arrays; a PLY has the point data RGB (unsigned char x3) as colours and Normals, where they are, and an OBJ
  * the normals. Another extension, or a folder that cannot be written, is an error that names the file; Write()
  * then returns 0.
@@ -36,6 +36,23 @@ public:
   vtkGetFilePathStringMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * Subtracted from all coordinates: a scene far from the origin, as in UTM coordinates, has them in single precision,
+   * which STL and many programs are limited to, only like that. The file tells the shift: PLY and OBJ in a comment
+   * "global shift X Y Z", STL in its header, VTP in the field data GlobalShift; vtkSurfaceReader adds it again.
+   * Default 0, 0, 0.
+   */
+  vtkSetVector3Macro(GlobalShift, double);
+  vtkGetVector3Macro(GlobalShift, double);
+  ///@}
+
+  /**
+   * A global shift for a surface's bounds: 0 where single precision rounds by less than 1e-5 of the diagonal,
+   * otherwise the middle, rounded to a power of ten that is no smaller than the diagonal.
+   */
+  static void SuggestGlobalShift(const double bounds[6], double shift[3]);
+
   /**
    * Whether the class writes files with this extension.
    */
@@ -49,6 +66,7 @@ protected:
   void WriteData() override;
 
   std::string FileName;
+  double GlobalShift[3] = { 0, 0, 0 };
 
 private:
   vtkSurfaceWriter(const vtkSurfaceWriter&) = delete;

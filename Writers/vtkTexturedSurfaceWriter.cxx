@@ -34,7 +34,7 @@ void WriteColouredPLY(vtkPolyData* surface, const freespace::AtomicOutput& targe
   {
     throw freespace::Error("The surface's points have no named colours for a PLY.");
   }
-  if (!freespace::WritePLY(surface, colors->GetName(), "", target.Path()))
+  if (!freespace::WritePLY(surface, colors->GetName(), "", Eigen::Vector3d::Zero(), target.Path()))
   {
     throw target.Failure();
   }

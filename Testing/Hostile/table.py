@@ -320,7 +320,8 @@ for name in ('/dev/zero', 'images', 'absent.ini'):
 for option, values in {'--crop': ('1,2,3', '1,0,0,1,0,1', 'a', 'nan,1,0,1,0,1'), '--largest': ('0', '-1', '1.5', 'x'),
                        '--crumbs': ('-1', 'nan', ''), '--smooth': ('0', 'inf'), '--simplify': ('0', '-1', 'x'),
                        '--triangles': ('0', '99999999999'), '--fill': ('-1',), '--scale': ('0', '-2', 'x'),
-                       '--shift': ('1,2', '1,2,3,4', '1,2,x', '1,,2')}.items():
+                       '--shift': ('1,2', '1,2,3,4', '1,2,x', '1,,2'),
+                       '--global-shift': ('1,2', '1,2,nan', 'x')}.items():
     for value in values:
         row(f'mesh {option} {value}', {}, ['mesh', 'mesh.ply', f'{option}={value}', '-o', 'out.ply'], option, MISUSED)
 for name, content in {'an empty matrix': '', 'a matrix of words': 'a b c', 'a matrix of noise': b'\x93\x00\xff' * 100,

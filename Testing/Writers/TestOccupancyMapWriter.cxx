@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <vector>
@@ -127,6 +128,62 @@ TEST(OccupancyMapWriter, BinaryTreeAgreesWithPhi)
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
+// A shift by whole cells moves the cells, and leaves what is in them. OctoMap reads a comment over.
+TEST(OccupancyMapWriter, AGlobalShiftMovesTheMap)
+{
+  const freespace::TemporaryFolder temporary;
+  for (const char* ending : { ".bt", ".ot" })
+  {
+    std::unique_ptr<octomap::AbstractOcTree> trees[2];
+    for (const int is : { 0, 1 })
+    {
+      const std::string file = temporary.Path(std::to_string(is) + ending);
+      vtkNew<vtkOccupancyMapWriter> writer;
+      SetPlain(writer.Get());
+      writer->SetInputDataObject(Maps());
+      writer->SetFileName(file);
+      writer->SetResolution(0.0625);
+      writer->SetHullMargin(0.2);
+      writer->SetGlobalShift(1000 * is, -500 * is, 250 * is);
+      ASSERT_EQ(writer->Write(), 1);
+      if (std::string(ending) == ".bt")
+      {
+        trees[is] = std::make_unique<octomap::OcTree>(file);
+      }
+      else
+      {
+        trees[is].reset(octomap::AbstractOcTree::read(file));
+      }
+    }
+    const auto *tree = dynamic_cast<octomap::OcTree*>(trees[0].get()),
+               *shifted = dynamic_cast<octomap::OcTree*>(trees[1].get());
+    ASSERT_TRUE(tree && shifted);
+    std::size_t cells = 0;
+    for (int i = -40; i < 40; ++i)
+    {
+      for (int j = -40; j < 40; ++j)
+      {
+        for (int k = 0; k < 80; k += 3)
+        {
+          const octomap::point3d at((i + 0.5f) / 16, (j + 0.5f) / 16, (k + 0.5f) / 16);
+          const auto *node = tree->search(at),
+                     *other = shifted->search(at - octomap::point3d(1000, -500, 250));
+          ASSERT_EQ(node == nullptr, other == nullptr);
+          ASSERT_TRUE(!node || tree->isNodeOccupied(node) == shifted->isNodeOccupied(other));
+          cells += node != nullptr;
+        }
+      }
+    }
+    EXPECT_GT(cells, 1000u);
+  }
+  std::ifstream file(temporary.Path("1.bt"), std::ios::binary);
+  std::string first, second;
+  std::getline(file, first);
+  std::getline(file, second);
+  EXPECT_EQ(first, "# Octomap OcTree binary file");
+  EXPECT_EQ(second, "# global shift 1000 -500 250");
+}
+
 TEST(OccupancyMapWriter, FullTreeAgreesWithPhi)
 {
   const freespace::TemporaryFolder temporary;
@@ -197,7 +254,7 @@ TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
         continue;
       }
       EXPECT_EQ(writer->GetErrorCode(), vtkErrorCode::UserError);
-      EXPECT_LE(watcher.seen.size(), whole);
+      EXPECT_LT(watcher.seen.back(), 1.0);
       EXPECT_EQ(watcher.after, stopAt > 0 ? 0 : 1); // the first event is the pipeline's own
     }
   }

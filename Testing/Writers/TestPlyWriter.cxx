@@ -169,7 +169,7 @@ TEST(PlyHeader, HasALineForEachProperty)
     "obj_info vtkPolyData points and polygons: vtk4.0\nelement vertex 3\n"
     "property float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n");
-  header.comment = "Camera 1 2 3";
+  header.comments = { "Camera 1 2 3" };
   header.isDouble = true;
   header.hasNormals = true;
   header.isColored = true;

@@ -9,6 +9,7 @@
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -18,7 +19,9 @@
 
 #include <array>
 #include <fstream>
+#include <limits>
 #include <set>
+#include <tuple>
 
 using namespace freespace;
 namespace fs = std::filesystem;
@@ -117,6 +120,67 @@ TEST(vtkSurfaceWriter, CoordinatesFarFromTheOriginAreKept)
   EXPECT_EQ(writer->Write(), 0);
   EXPECT_TRUE(errors->Has("single precision")) << errors->All;
   EXPECT_FALSE(fs::exists(folder.Path("a.stl")));
+}
+
+// With a shift an STL keeps it, too, and every reader of the files has small coordinates.
+TEST(vtkSurfaceWriter, AGlobalShiftIsKeptInTheFileAndUndone)
+{
+  const TemporaryFolder folder;
+  const auto surface = MakeTetrahedron();
+  const auto far = MakeTetrahedron();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    const double* point = surface->GetPoint(i);
+    points->InsertNextPoint(500000 + point[0], 5400000 + point[1], 300 + point[2]);
+  }
+  far->SetPoints(points);
+  double shift[3];
+  vtkSurfaceWriter::SuggestGlobalShift(far->GetBounds(), shift);
+  EXPECT_EQ(shift[0], 500000);
+  EXPECT_EQ(shift[1], 5400000);
+  EXPECT_EQ(shift[2], 300);
+  for (const char* name : { "a.ply", "a.stl", "a.obj", "a.vtp" })
+  {
+    SCOPED_TRACE(name);
+    vtkNew<vtkSurfaceWriter> writer;
+    writer->SetInputDataObject(far);
+    writer->SetGlobalShift(shift);
+    writer->SetFileName(folder.Path(name));
+    ASSERT_EQ(writer->Write(), 1);
+    EXPECT_EQ(far->GetFieldData()->GetNumberOfArrays(), 0);
+    vtkNew<vtkSurfaceReader> reader;
+    reader->SetFileName(folder.Path(name));
+    EXPECT_EQ(ErrorOfUpdate(reader), "");
+    EXPECT_EQ(reader->GetOutput()->GetFieldData()->GetNumberOfArrays(), 0);
+    EXPECT_EQ(Triangles(reader->GetOutput()), Triangles(far));
+  }
+  EXPECT_EQ(Triangles(WriteAndRead(surface, folder.Path("near.ply"))), Triangles(surface));
+  std::ifstream file(folder.Path("a.ply"), std::ios::binary);
+  const std::string content{ std::istreambuf_iterator<char>(file), {} };
+  EXPECT_NE(content.find("comment global shift 500000 5400000 300\n"), std::string::npos);
+  EXPECT_NE(content.find("property float x"), std::string::npos);
+}
+
+TEST(vtkSurfaceWriter, AGlobalShiftThatNoFileKeepsIsAnError)
+{
+  const TemporaryFolder folder;
+  const double longest[3] = { 1234567.1234567891, 1234567.1234567893, -1234567.1234567895e-200 };
+  const double endless[3] = { 0, std::numeric_limits<double>::quiet_NaN(), 0 };
+  for (const auto& [name, shift, fault] :
+    { std::tuple("a.stl", longest, "digits"), std::tuple("a.ply", endless, "finite") })
+  {
+    vtkNew<vtkSurfaceWriter> writer;
+    vtkNew<ErrorObserver> errors;
+    writer->AddObserver(vtkCommand::ErrorEvent, errors);
+    writer->SetInputDataObject(MakeTetrahedron());
+    writer->SetFileName(folder.Path(name));
+    writer->SetGlobalShift(shift);
+    EXPECT_EQ(writer->Write(), 0) << name;
+    EXPECT_TRUE(errors->Has(fault)) << errors->All;
+    EXPECT_FALSE(fs::exists(folder.Path(name)));
+  }
 }
 
 TEST(vtkSurfaceWriter, PLYAndVTPKeepTheViewpoint)

@@ -4,6 +4,8 @@
 #include "Common/Error.h"
 #include "Surface/SurfaceWords.h"
 
+#include <algorithm>
+
 namespace freespace
 {
 
@@ -54,6 +56,11 @@ SurfaceFile ParseOBJ(const std::string& content, const std::string& file)
         surface.corners.push_back(PointOf(corner, surface.points.size()));
       }
       surface.EndPolygon(file);
+    }
+    else if (keyword == "#")
+    {
+      surface.comments.emplace_back(
+        line.substr(std::min<std::size_t>(line.find('#') + 2, line.size())));
     }
     else if (keyword.find('\0') != std::string_view::npos)
     {

@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Surface/SurfaceWords.h"
 
+#include <algorithm>
 #include <cstring>
 #include <unordered_map>
 
@@ -66,6 +67,9 @@ SurfaceFile ParseBinary(const std::string& content, std::size_t triangles)
       corners.Add({ values[0], values[1], values[2] });
     }
   }
+  // Padded with zeros.
+  corners.Surface.comments.emplace_back(
+    content.substr(0, std::min(content.find('\0'), headerSize - 4)));
   return std::move(corners.Surface);
 }
 

@@ -18,7 +18,7 @@ struct SurfaceFile
   std::vector<std::array<std::uint8_t, 3>> colors; ///< of the points; may be empty
   std::vector<std::int64_t> corners;               ///< of all polygons, indices into the points
   std::vector<std::int64_t> ends;                  ///< of each polygon in `corners`
-  std::vector<std::string> comments;
+  std::vector<std::string> comments;               ///< an STL's header is one
 
   /// Ends a polygon whose corners were appended. Throws Error naming the file unless it has three
   /// corners or more and all of them are among the points.

@@ -30,7 +30,8 @@ class TestMemoryLimit(unittest.TestCase):
 
     def test_pieces_are_the_whole(self):
         # A surface that is written in pieces is not fitted and keeps its crumbs.
-        for options in (('--no-fit', '--crumbs', 'keep'), ('--no-fit', '--crumbs', 'keep', '--no-sharp')):
+        for options in (('--no-fit', '--crumbs', 'keep'), ('--no-fit', '--crumbs', 'keep', '--no-sharp'),
+                        ('--no-fit', '--crumbs', 'keep', '--global-shift', '1000,-2000,0.5')):
             with self.subTest(options=options):
                 for name, limit in (('whole.ply', 0), ('pieces.ply', 3)):
                     result = self.run_program('contour', 'maps.vtm', '--cells', 200, '--memory-limit', limit,

@@ -207,6 +207,21 @@ class TestMesh(WithFolder):
         self.assertEqual(info['edges_between_contrary_triangles'], 0)
         self.assertGreater(info['volume'], 4)
 
+    def test_a_global_shift_keeps_a_scene_far_away_in_single_precision(self):
+        write(sphere(1), self.folder / 'near.ply')
+        self.succeed('mesh', 'near.ply', '--shift', '500000,5400000,300', '-o', 'far.ply')
+        refused = run('mesh', 'far.ply', '-o', 'mesh.stl', cwd=self.folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn('global shift', refused.stderr)
+        result = self.succeed('mesh', 'far.ply', '--global-shift', 'auto', '-o', 'mesh.stl')
+        self.assertIn('wrote mesh.stl, global shift 500000 5400000 300', result.stderr)
+        for name in ('mesh.stl', 'far.ply'):
+            self.succeed('mesh', name, '--shift=-500000,-5400000,-300', '-o', 'back.ply')
+            again, near = (read(self.folder / name) for name in ('back.ply', 'near.ply'))
+            self.assertEqual(again.GetNumberOfPoints(), near.GetNumberOfPoints())
+            self.assertEqual(sorted(map(tuple, numpy.round(points_of(again), 5))),
+                             sorted(map(tuple, numpy.round(points_of(near), 5))))
+
     def test_a_mirror_keeps_the_outside(self):
         write(sphere(), self.folder / 'in.ply')
         (self.folder / 'mirror.txt').write_text('-1,0,0,0\n0,1,0,0\n0,0,1,5\n0,0,0,1')

@@ -42,7 +42,7 @@ void Contour(Session& session, const ContourSettings& settings)
   const auto surface = settings.contour.Make(session, filter, maps);
   if (session.MayWrite())
   {
-    WriteSurface(session, surface, settings.output);
+    WriteSurface(session, surface, settings.output, settings.contour.GlobalShift());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "Output/ViewFiles.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
+#include "Options/GlobalShiftOption.h"
 #include "Options/UnionOptions.h"
 
 #include <vtkMultiBlockDataSet.h>
@@ -52,6 +53,7 @@ struct OccupancySettings
   std::string output;
   double resolution = 0;
   UnionOptions freeSpace;
+  GlobalShiftOption globalShift;
 };
 
 }
@@ -73,6 +75,7 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
     ->check(NonNegative())
     ->capture_default_str();
   settings->freeSpace.AddTo(*command);
+  settings->globalShift.AddTo(*command);
   command->footer("Example:\n  freespace occupancy maps.vtm -o map.bt --resolution 0.005");
   command->callback(session.Defer(
     [settings, &session]()
@@ -84,6 +87,8 @@ void AddOccupancyCommand(CLI::App& program, Session& session)
       writer->SetFileName(settings->output);
       writer->SetResolution(settings->resolution);
       settings->freeSpace.SetUp(writer.Get());
+      writer->SetAutomaticGlobalShift(settings->globalShift.IsAutomatic());
+      writer->SetGlobalShift(settings->globalShift.For({}).data());
       session.Watch(writer, "occupancy",
         [&]
         {

@@ -62,7 +62,7 @@ std::array<int, 2> SizeLike(const Camera& camera)
 
 void Write(Session& session, vtkPolyData* surface, const ReconstructSettings& settings)
 {
-  WriteSurface(session, surface, settings.output);
+  WriteSurface(session, surface, settings.output, settings.contour.GlobalShift());
   if (!settings.picture.empty())
   {
     PictureLook look;

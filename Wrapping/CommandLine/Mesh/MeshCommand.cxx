@@ -20,6 +20,7 @@ struct MeshSettings
 {
   std::string input;
   std::string output;
+  GlobalShiftOption globalShift;
 };
 
 std::string Counts(vtkPolyData* surface)
@@ -47,7 +48,7 @@ void Edit(
     }
     session.Log(operation.Text() + ": " + Counts(surface));
   }
-  WriteSurface(session, surface, settings.output);
+  WriteSurface(session, surface, settings.output, settings.globalShift);
 }
 
 }
@@ -63,6 +64,7 @@ void AddMeshCommand(CLI::App& program, Session& session)
   command->add_option("-o,--output", settings->output, "The surface to write (.ply .stl .obj .vtp)")
     ->required()
     ->type_name("OUT.ply");
+  settings->globalShift.AddTo(*command);
   AddMeshOperations(*command);
   command->footer(
     "Examples:\n"

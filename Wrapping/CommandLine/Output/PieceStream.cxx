@@ -2,6 +2,7 @@
 #include "Output/PieceStream.h"
 
 #include "Common/Error.h"
+#include "Files/GlobalShift.h"
 #include "PlyWriter.h"
 
 #include <vtkCellArray.h>
@@ -70,8 +71,7 @@ void PieceStream::Add(vtkPolyData* piece)
                   "cells.");
     }
     place[i] = static_cast<std::int32_t>(this->Points++);
-    this->IsDouble =
-      this->IsDouble || !IsSingle(position[0]) || !IsSingle(position[1]) || !IsSingle(position[2]);
+    this->Box.extend(Eigen::Vector3d(position.data()));
     Put(this->PointFile, position);
   }
   for (vtkIdType t = 0; t < piece->GetNumberOfPolys(); ++t)
@@ -103,14 +103,14 @@ void PieceStream::FindShared()
   }
 }
 
-void PieceStream::Finish(const std::string& comment)
+void PieceStream::Finish(const std::string& comment, const Eigen::Vector3d& globalShift)
 {
   if (this->Triangles == 0)
   {
     throw Error("Cannot write " + this->Name + ": the surface is empty.");
   }
   this->FindShared();
-  this->WriteWhole(this->Target.Path(), comment);
+  this->WriteWhole(this->Target.Path(), comment, globalShift);
   this->PointFile.close();
   this->TriangleFile.close();
   std::filesystem::remove(this->Target.Path() + ".points");
@@ -118,13 +118,31 @@ void PieceStream::Finish(const std::string& comment)
   this->Target.Commit();
 }
 
+/// Whether single precision keeps all coordinates.
+bool PieceStream::AreSingle(const Eigen::Vector3d& globalShift)
+{
+  this->PointFile.seekg(0);
+  bool areSingle = true;
+  for (std::int64_t i = 0; i < this->Points && areSingle; ++i)
+  {
+    Position position;
+    Get(this->PointFile, position);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      areSingle = areSingle && IsSingle(position[axis] - globalShift[axis]);
+    }
+  }
+  return areSingle;
+}
+
 /// Like WritePLY.
-void PieceStream::WriteWhole(const std::string& fileName, const std::string& comment)
+void PieceStream::WriteWhole(
+  const std::string& fileName, const std::string& comment, const Eigen::Vector3d& globalShift)
 {
   std::ofstream file(fileName, std::ios::binary);
   PlyHeader header;
-  header.comment = comment;
-  header.isDouble = this->IsDouble;
+  header.comments = { comment, GlobalShiftComment(globalShift) };
+  header.isDouble = !this->AreSingle(globalShift);
   header.vertices = this->Points;
   header.faces = this->Triangles;
   file << header.Text();
@@ -133,8 +151,9 @@ void PieceStream::WriteWhole(const std::string& fileName, const std::string& com
   {
     Position position;
     Get(this->PointFile, position);
-    for (double coordinate : position)
+    for (int axis = 0; axis < 3; ++axis)
     {
+      const double coordinate = position[axis] - globalShift[axis];
       header.isDouble ? Put(file, coordinate) : Put(file, static_cast<float>(coordinate));
     }
   }

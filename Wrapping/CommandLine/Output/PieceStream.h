@@ -4,6 +4,8 @@
 
 #include "Files/AtomicOutput.h"
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cstdint>
 #include <fstream>
@@ -29,8 +31,13 @@ public:
   /// .ply can count.
   void Add(vtkPolyData* piece);
 
-  /// Assembles the file, with a comment unless that is empty. Throws Error when the disk is full.
-  void Finish(const std::string& comment = "");
+  /// Assembles the file, with a comment unless that is empty; the global shift is subtracted from all points. Throws
+  /// Error when the disk is full.
+  void Finish(
+    const std::string& comment = "", const Eigen::Vector3d& globalShift = Eigen::Vector3d::Zero());
+
+  /// Of the points so far.
+  const Eigen::AlignedBox3d& Bounds() const { return this->Box; }
 
   std::int64_t NumberOfPoints() const { return this->Points; }
   std::int64_t NumberOfTriangles() const { return this->Triangles; }
@@ -39,7 +46,9 @@ private:
   using Position = std::array<double, 3>;
 
   void FindShared();
-  void WriteWhole(const std::string& fileName, const std::string& comment);
+  bool AreSingle(const Eigen::Vector3d& globalShift);
+  void WriteWhole(
+    const std::string& fileName, const std::string& comment, const Eigen::Vector3d& globalShift);
   void Check(bool isGood) const;
 
   std::string Name;
@@ -49,7 +58,7 @@ private:
   std::map<Position, std::int32_t> Shared;
   std::vector<std::int32_t> SharedPlace;
   std::int64_t Points = 0, Triangles = 0;
-  bool IsDouble = false; ///< whether single precision does not keep all coordinates
+  Eigen::AlignedBox3d Box;
 };
 
 }

@@ -2,8 +2,10 @@
 #include "Output/SurfaceFiles.h"
 
 #include "Files/AtomicOutput.h"
+#include "Files/GlobalShift.h"
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
+#include "Data/Boxes.h"
 #include "Session/Session.h"
 
 #include <vtkNew.h>
@@ -22,13 +24,17 @@ vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fi
   return reader->GetOutput();
 }
 
-void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName)
+void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName,
+  const GlobalShiftOption& globalShift)
 {
+  const Eigen::Vector3d shift = globalShift.For(BoxOf(surface->GetBounds()));
   vtkNew<vtkSurfaceWriter> writer;
   writer->SetInputDataObject(surface);
   writer->SetFileName(fileName);
+  writer->SetGlobalShift(shift.data());
   session.Write(writer);
-  session.Log("wrote " + fileName);
+  const std::string told = GlobalShiftComment(shift);
+  session.Log("wrote " + fileName + (told.empty() ? "" : ", " + told));
 }
 
 void CheckOutputFolder(const std::string& fileName)

@@ -2,6 +2,8 @@
 #ifndef freespace_SurfaceFiles_h
 #define freespace_SurfaceFiles_h
 
+#include "Options/GlobalShiftOption.h"
+
 #include <vtkSmartPointer.h>
 
 #include <string>
@@ -17,7 +19,8 @@ class Session;
 vtkSmartPointer<vtkPolyData> ReadSurface(Session& session, const std::string& fileName);
 
 /// Writes a surface; the extension of the file determines the format.
-void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName);
+void WriteSurface(Session& session, vtkPolyData* surface, const std::string& fileName,
+  const GlobalShiftOption& globalShift = {});
 
 /// Throws Error when a file's folder cannot be written: before hours of work, not after.
 void CheckOutputFolder(const std::string& fileName);

@@ -89,6 +89,7 @@ void ContourStage::AddOptions(CLI::App& command)
       "Keep only observed triangles: an open surface without the hull and the silhouette walls, "
       "except where features are close")
     ->group("Surface");
+  this->Shift.AddTo(command, "Surface");
 }
 
 vtkSmartPointer<vtkPolyData> ContourStage::Run(Session& session, vtkMultiBlockDataSet* maps) const
@@ -216,7 +217,7 @@ bool ContourStage::Stream(Session& session, vtkBisectionContourFilter* contour,
   }
   vtkNew<vtkPolyData> nothingButViewpoint;
   GiveViewpoint(contour, maps, nothingButViewpoint);
-  stream.Finish(ViewpointComment(nothingButViewpoint));
+  stream.Finish(ViewpointComment(nothingButViewpoint), this->Shift.For(stream.Bounds()));
   session.Log("contour: " + std::to_string(stream.NumberOfPoints()) + " vertices, " +
     std::to_string(stream.NumberOfTriangles()) + " triangles");
   session.Log("wrote " + fileName);

@@ -2,6 +2,7 @@
 #ifndef freespace_ContourStage_h
 #define freespace_ContourStage_h
 
+#include "Options/GlobalShiftOption.h"
 #include "Options/UnionOptions.h"
 
 #include <CLI/CLI.hpp>
@@ -47,6 +48,9 @@ public:
   vtkSmartPointer<vtkPolyData> Make(
     Session& session, vtkBisectionContourFilter* contour, vtkMultiBlockDataSet* maps) const;
 
+  /// Of the file that the surface is written to.
+  const GlobalShiftOption& GlobalShift() const { return this->Shift; }
+
 private:
   vtkSmartPointer<vtkPolyData> MakeWhole(
     Session& session, vtkBisectionContourFilter* contour) const;
@@ -69,6 +73,7 @@ private:
   std::string Crumbs = "drop";
   bool Normals = false;
   bool Observed = false;
+  GlobalShiftOption Shift;
 };
 
 }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Options/GlobalShiftOption.h"
+
+#include "Files/GlobalShift.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace freespace
+{
+
+namespace
+{
+
+// "X,Y,Z"; false where the text is anything else.
+bool ReadShift(const std::string& text, Eigen::Vector3d& shift)
+{
+  char more = 0;
+  return std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &shift[0], &shift[1], &shift[2], &more) == 3 &&
+    shift.allFinite();
+}
+
+std::string Fault(const std::string& text)
+{
+  Eigen::Vector3d shift;
+  return text == "none" || text == "auto" || ReadShift(text, shift)
+    ? ""
+    : "'" + text + "' is no global shift: it is none, auto or X,Y,Z.";
+}
+
+}
+
+void GlobalShiftOption::AddTo(CLI::App& command, const std::string& group)
+{
+  command
+    .add_option("--global-shift", this->Shift,
+      "Subtract X,Y,Z from the coordinates in the file, which tells them, so that they are added when it is "
+      "read again; auto: what a scene far from the origin needs to be kept in single precision")
+    ->check(CLI::Validator(Fault, ""))
+    ->type_name("none|auto|X,Y,Z")
+    ->capture_default_str()
+    ->group(group);
+}
+
+Eigen::Vector3d GlobalShiftOption::For(const Eigen::AlignedBox3d& box) const
+{
+  if (this->IsAutomatic())
+  {
+    return SuggestGlobalShift(box);
+  }
+  Eigen::Vector3d shift;
+  return ReadShift(this->Shift, shift) ? shift : Eigen::Vector3d::Zero();
+}
+
+}
