@@ -5,6 +5,7 @@
 #include "Execution/AlgorithmErrors.h"
 #include "Execution/AlgorithmProgress.h"
 #include "Execution/SMPParallelFor.h"
+#include "Data/ObservedTriangles.h"
 #include "Data/SurfaceMesh.h"
 #include "PhotographBlocks.h"
 #include "Texture/TextureAtlas.h"
@@ -84,6 +85,18 @@ void SetSurface(const TriangleMesh& mesh, const TextureAtlas& atlas, vtkPolyData
   surface->SetPolys(triangles);
   surface->GetPointData()->SetTCoords(coordinates);
   AddColors(atlas, surface);
+}
+
+// A triangle that is there again would have a chart of its own.
+TriangleMesh MeshWithoutRepeated(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyData> once;
+  once->ShallowCopy(surface);
+  if (once->GetPolys()->IsHomogeneous() == 3)
+  {
+    DropRepeated(once);
+  }
+  return MeshFromPolyData(once);
 }
 
 // What the surface is moved to the origin by where it lies far from it, as in UTM coordinates: charts are
@@ -175,7 +188,7 @@ int vtkTextureBaker::RequestData(
   try
   {
     const freespace::Progress progress = AlgorithmProgress(this);
-    const TriangleMesh mesh = MeshFromPolyData(vtkPolyData::GetData(inputVector[0]));
+    const TriangleMesh mesh = MeshWithoutRepeated(vtkPolyData::GetData(inputVector[0]));
     if (mesh.triangles.empty())
     {
       throw Error("There is no surface to texture.");

@@ -121,6 +121,29 @@ TEST(TextureBaker, TextureHasTheColoursOfTheSurface)
   EXPECT_LE(baked.baker->GetNumberOfCharts(), 6);
 }
 
+TEST(TextureBaker, ATriangleThatIsThereAThousandTimesIsBakedOnce)
+{
+  BakedScene baked(2);
+  const vtkIdType charts = baked.baker->GetNumberOfCharts();
+  auto again = vtkSmartPointer<vtkPolyData>::New();
+  again->DeepCopy(baked.scene.Surface());
+  const vtkIdType once = again->GetNumberOfCells();
+  vtkNew<vtkIdList> corners;
+  again->GetCellPoints(0, corners);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const vtkIdType turned[3] = { corners->GetId(i % 3), corners->GetId((i + 1) % 3),
+      corners->GetId((i + 2) % 3) };
+    again->GetPolys()->InsertNextCell(3, turned);
+  }
+  again->DeleteCells();
+  baked.baker->SetInputData(again);
+  baked.baker->Update();
+  EXPECT_EQ(baked.baker->GetOutput()->GetNumberOfCells(), once);
+  EXPECT_EQ(baked.baker->GetNumberOfCharts(), charts);
+  EXPECT_EQ(again->GetNumberOfPolys(), once + 1000);
+}
+
 TEST(TextureBaker, TexturesAreLimited)
 {
   BakedScene baked(2);

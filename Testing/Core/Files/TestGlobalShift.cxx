@@ -52,8 +52,9 @@ TEST(GlobalShift, TheCommentKeepsEveryDigit)
 
 TEST(GlobalShift, OtherCommentsHaveNone)
 {
-  for (const char* comment : { "", "global shift", "global shift 1 2", "global shift 1 2 3 4", "global shift 1 2 x",
-         "global shift 1 2 nan", "global shift 1 2 1e999", "global shift1 2 3", "a global shift 1 2 3", "VTK" })
+  for (const char* comment : { "", "global shift", "global shift 1 2", "global shift 1 2 3 4",
+         "global shift 1 2 x", "global shift 1 2 nan", "global shift 1 2 1e999",
+         "global shift1 2 3", "a global shift 1 2 3", "VTK" })
   {
     EXPECT_FALSE(GlobalShiftFromComment(comment)) << comment;
   }

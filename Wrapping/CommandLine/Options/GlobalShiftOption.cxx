@@ -34,7 +34,8 @@ void GlobalShiftOption::AddTo(CLI::App& command, const std::string& group)
 {
   command
     .add_option("--global-shift", this->Shift,
-      "Subtract X,Y,Z from the coordinates in the file, which tells them, so that they are added when it is "
+      "Subtract X,Y,Z from the coordinates in the file, which tells them, so that they are added "
+      "when it is "
       "read again; auto: what a scene far from the origin needs to be kept in single precision")
     ->check(CLI::Validator(Fault, ""))
     ->type_name("none|auto|X,Y,Z")
