@@ -260,20 +260,50 @@ inline std::string AliceVisionLens(const SparseModel& model, const std::array<in
   return text.str();
 }
 
-inline std::string AliceVisionText(const SparseModel& model, const std::array<int, 3>& version)
+/// The images as those that one rig has taken at a time; one more camera of it is not placed.
+inline std::string AliceVisionRig(const std::vector<CalibratedImage>& images,
+  const Eigen::Matrix3d& R, const Eigen::Vector3d& center)
 {
+  std::ostringstream text = TextStream();
+  text << "\"rigs\": [{\"rigId\": \"3\", \"subPoses\": [";
+  for (const CalibratedImage& image : images)
+  {
+    text << "{\"status\": \"estimated\", \"pose\": {\"rotation\": "
+         << QuotedNumbers(Eigen::Matrix3d(image.camera.R * R.transpose()))
+         << ", \"center\": " << QuotedNumbers(Eigen::Vector3d(R * (image.camera.Center() - center)))
+         << "}},\n";
+  }
+  return text.str() + "{\"status\": \"uninitialized\"}]}], ";
+}
+
+inline std::string AliceVisionText(
+  const SparseModel& model, const std::array<int, 3>& version, bool isRig = false)
+{
+  const Eigen::Matrix3d rigR =
+    Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, -2, 0.5).normalized()).matrix();
+  const Eigen::Vector3d rigCenter(0.3, -1.2, 2.5);
   const std::vector<CalibratedImage> images = CalibratedImages(model);
   std::ostringstream text = TextStream();
   text << "{\"version\": [\"" << version[0] << "\",\"" << version[1] << "\",\"" << version[2]
        << "\"], \"featuresFolders\": [\"f\"], \"views\": [";
   for (std::size_t i = 0; i < images.size(); ++i)
   {
-    text << (i ? ",\n" : "\n") << "{\"viewId\": \"" << 4000000000u + i << "\", \"poseId\": \"" << i
+    text << (i ? ",\n" : "\n") << "{\"viewId\": \"" << 4000000000u + i << "\", \"poseId\": \""
+         << (isRig ? 50 : i) << "\", \"rigId\": \"3\", \"subPoseId\": \"" << i
+         << (isRig ? "\", \"isPoseIndependant\": \"false" : "")
          << "\", \"intrinsicId\": \"7\", \"path\": \"/no/such/folder/" << images[i].file << "\"}";
+  }
+  if (isRig)
+  {
+    text << ",{\"viewId\": \"6\", \"poseId\": \"50\", \"intrinsicId\": \"7\", \"rigId\": \"3\", "
+            "\"subPoseId\": \""
+         << images.size()
+         << "\", \"isPoseIndependant\": \"false\", \"path\": \"/no/such/folder/unplaced.jpg\"}";
   }
   text << ",{\"viewId\": \"5\", \"poseId\": \"99\", \"intrinsicId\": \"7\", \"path\": "
           "\"/no/such/folder/lost.jpg\"}], \"intrinsics\": ["
-       << AliceVisionLens(model, version) << "], \"poses\": [";
+       << AliceVisionLens(model, version) << "], "
+       << (isRig ? AliceVisionRig(images, rigR, rigCenter) : "") << "\"poses\": [";
   for (std::size_t i = 0; i < images.size(); ++i)
   {
     text << (i ? ",\n" : "\n") << "{\"poseId\": \"" << i
@@ -281,6 +311,8 @@ inline std::string AliceVisionText(const SparseModel& model, const std::array<in
          << ", \"center\": " << QuotedNumbers(images[i].camera.Center())
          << "}, \"locked\": \"0\"}}";
   }
+  text << ",{\"poseId\": \"50\", \"pose\": {\"transform\": {\"rotation\": " << QuotedNumbers(rigR)
+       << ", \"center\": " << QuotedNumbers(rigCenter) << "}}}";
   text << "], \"structure\": [";
   const SparseTracks tracks(model);
   for (std::size_t i = 0; i < model.points.size(); ++i)

@@ -165,18 +165,54 @@ void ReadAliceVisionPoints(const JsonNode& root, const Ids& images, ModelBuilder
   }
 }
 
-std::unordered_map<std::uint64_t, CenteredPose> ReadAliceVisionPoses(const JsonNode& root)
+CenteredPose PoseOf(const JsonNode& node)
 {
-  std::unordered_map<std::uint64_t, CenteredPose> poses;
+  const std::vector<double> r = node.At("rotation").Numbers(9); // column by column
+  const std::vector<double> c = node.At("center").Numbers(3);
+  return { Eigen::Map<const Eigen::Matrix3d>(r.data()), Eigen::Vector3d(c[0], c[1], c[2]) };
+}
+
+using Poses = std::unordered_map<std::uint64_t, CenteredPose>;
+
+// Of single cameras, or of rigs in the world.
+Poses ReadPoses(const JsonNode& root)
+{
+  Poses poses;
   for (const JsonNode& pose : root.At("poses").Elements())
   {
-    const JsonNode transform = pose.At("pose").At("transform");
-    const std::vector<double> r = transform.At("rotation").Numbers(9); // column by column
-    const std::vector<double> c = transform.At("center").Numbers(3);
-    poses[pose.At("poseId").Id()] = { Eigen::Map<const Eigen::Matrix3d>(r.data()),
-      Eigen::Vector3d(c[0], c[1], c[2]) };
+    poses[pose.At("poseId").Id()] = PoseOf(pose.At("pose").At("transform"));
   }
   return poses;
+}
+
+// The cameras of a rig, in its coordinates, by their number there; those that were not found are missing.
+std::unordered_map<std::uint64_t, Poses> ReadRigs(const JsonNode& root)
+{
+  std::unordered_map<std::uint64_t, Poses> rigs;
+  if (!root.Has("rigs"))
+  {
+    return rigs;
+  }
+  for (const JsonNode& rig : root.At("rigs").Elements())
+  {
+    Poses& cameras = rigs[rig.At("rigId").Id()];
+    std::uint64_t number = 0;
+    for (const JsonNode& camera : rig.At("subPoses").Elements())
+    {
+      if (camera.At("status").Text() != "uninitialized")
+      {
+        cameras[number] = PoseOf(camera.At("pose"));
+      }
+      ++number;
+    }
+  }
+  return rigs;
+}
+
+// Of a camera whose pose in the coordinates of its rig is given.
+CenteredPose PoseInWorld(const CenteredPose& rig, const CenteredPose& camera)
+{
+  return { camera.rotation * rig.rotation, rig.center + rig.rotation.transpose() * camera.center };
 }
 
 struct PlacedView
@@ -186,22 +222,39 @@ struct PlacedView
   std::uint32_t camera;
 };
 
+// Whether the pose of a view is that of its rig: the name in the file is spelt like that.
+bool IsOnRig(const JsonNode& view)
+{
+  return view.Has("isPoseIndependant") && !view.At("isPoseIndependant").Truth();
+}
+
 std::vector<PlacedView> PlacedViews(const JsonNode& root, const Ids& cameras)
 {
-  const auto poses = ReadAliceVisionPoses(root);
+  const Poses poses = ReadPoses(root);
+  const std::unordered_map<std::uint64_t, Poses> rigs = ReadRigs(root);
   std::vector<PlacedView> placed;
   for (const JsonNode& view : root.At("views").Elements())
   {
-    if (view.Has("isPoseIndependent") && !view.At("isPoseIndependent").Truth())
-    {
-      view.Fail("the poses of rigs are not supported: convert the file with "
-                "aliceVision_exportColmap");
-    }
     const auto pose = poses.find(view.At("poseId").Id());
     const auto camera = cameras.find(view.At("intrinsicId").Id());
-    if (pose != poses.end() && camera != cameras.end())
+    if (pose == poses.end() || camera == cameras.end())
+    {
+      continue;
+    }
+    if (!IsOnRig(view))
     {
       placed.push_back({ view, pose->second, camera->second });
+      continue;
+    }
+    const auto rig = rigs.find(view.At("rigId").Id());
+    if (rig == rigs.end())
+    {
+      view.At("rigId").Fail("there is no such rig");
+    }
+    const auto onRig = rig->second.find(view.At("subPoseId").Id());
+    if (onRig != rig->second.end())
+    {
+      placed.push_back({ view, PoseInWorld(pose->second, onRig->second), camera->second });
     }
   }
   return placed;

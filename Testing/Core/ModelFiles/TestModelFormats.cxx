@@ -215,6 +215,9 @@ TEST(ModelFormats, AliceVisionHasTheModelOfColmap)
       const SparseModel read = ReadText("cameras.sfm", AliceVisionText(model, version));
       ExpectSameCameras(expected, read);
       ExpectSamePoints(expected, read);
+      const SparseModel ofRig = ReadText("cameras.sfm", AliceVisionText(model, version, true));
+      ExpectSameCameras(expected, ofRig);
+      ExpectSamePoints(expected, ofRig);
     }
   }
 }
@@ -227,8 +230,8 @@ TEST(ModelFormats, AliceVisionThatIsRefused)
     "a.sfm", Replaced(good, "\"radial3\"", "\"equirectangular\""), { "a.sfm", "equirectangular" });
   ExpectFormatError(
     "a.sfm", Replaced(good, "\"radial3\"", "\"3deanamorphic4\""), { "3deanamorphic4" });
-  ExpectFormatError(
-    "a.sfm", Replaced(good, "\"viewId\"", "\"isPoseIndependent\": false, \"viewId\""), { "rigs" });
+  ExpectFormatError("a.sfm",
+    Replaced(good, "\"viewId\"", "\"isPoseIndependant\": false, \"viewId\""), { "no such rig" });
   ExpectFormatError("a.sfm", Replaced(good, "\"28", "\"x28"), { "'intrinsics'[0]", "number" });
 }
 
