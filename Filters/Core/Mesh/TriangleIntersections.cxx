@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/TriangleIntersections.h"
 
+#include "Mesh/BoxGrid.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
@@ -8,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
 
 namespace freespace
 {
@@ -20,6 +22,8 @@ namespace
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<std::int32_t, 3>;
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+using MayMeet = std::function<bool(std::size_t a, std::size_t b)>;
 
 class IntersectionFinder
 {
@@ -30,46 +34,10 @@ public:
   {
   }
 
-  std::vector<std::pair<std::size_t, std::size_t>> Run(const std::vector<std::size_t>& suspects,
-    const std::function<bool(std::size_t a, std::size_t b)>& mayMeet,
+  Pairs Run(const std::vector<std::size_t>& suspects, const MayMeet& mayMeet,
     const ParallelFor& parallelFor)
   {
-    std::vector<char> isSuspect(this->Mesh.count, 0);
-    for (std::size_t suspect : suspects)
-    {
-      isSuspect[suspect] = 1;
-      this->ForEachCell(suspect, [&](std::uint64_t cell) { this->Grid[cell]; });
-    }
-    for (std::size_t t = 0; t < this->Mesh.count && !suspects.empty(); ++t)
-    {
-      this->ForEachCell(t,
-        [&](std::uint64_t cell)
-        {
-          const auto place = this->Grid.find(cell);
-          if (place != this->Grid.end())
-          {
-            place->second.push_back(t);
-          }
-        });
-    }
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t suspect : suspects)
-    {
-      this->ForEachCell(suspect,
-        [&](std::uint64_t cell)
-        {
-          for (std::size_t other : this->Grid[cell])
-          {
-            if ((other > suspect || !isSuspect[other]) && mayMeet(suspect, other))
-            {
-              pairs.emplace_back(std::min(suspect, other), std::max(suspect, other));
-            }
-          }
-        });
-      pairs.emplace_back(suspect, suspect);
-    }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    Pairs pairs = this->FindCandidates(suspects, mayMeet, parallelFor);
     std::vector<char> meet(pairs.size());
     parallelFor(pairs.size(),
       [&](std::size_t begin, std::size_t end)
@@ -102,31 +70,78 @@ private:
     return Kernel::Point_3(p.x(), p.y(), p.z());
   }
 
-  template <typename Visit>
-  void ForEachCell(std::size_t t, Visit&& visit) const
+  // Pairs whose boxes intersect, in ascending order; each suspect with itself.
+  Pairs FindCandidates(const std::vector<std::size_t>& suspects, const MayMeet& mayMeet,
+    const ParallelFor& parallelFor)
+  {
+    if (suspects.empty())
+    {
+      return {};
+    }
+    std::vector<char> isSuspect(this->Mesh.count, 0);
+    Vector3d low = Vector3d::Constant(std::numeric_limits<double>::max());
+    for (const std::size_t suspect : suspects)
+    {
+      isSuspect[suspect] = 1;
+      low = low.cwiseMin(this->BoxOf(suspect).min());
+    }
+    const BoxGrid grid(suspects.size(), low, this->GridCell,
+      [&](std::size_t i) { return this->BoxOf(suspects[i]); });
+    constexpr std::size_t together = 4096;
+    std::vector<Pairs> found((this->Mesh.count + together - 1) / together);
+    parallelFor(found.size(),
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin * together; t < std::min(end * together, this->Mesh.count); ++t)
+        {
+          this->AddPairs(t, suspects, isSuspect[t] != 0, grid, mayMeet, found[t / together]);
+        }
+      });
+    Pairs pairs;
+    for (const Pairs& some : found)
+    {
+      pairs.insert(pairs.end(), some.begin(), some.end());
+    }
+    for (const std::size_t suspect : suspects)
+    {
+      pairs.emplace_back(suspect, suspect);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
+
+  // The suspects that a triangle may meet; of two suspects the later one finds the earlier one.
+  void AddPairs(std::size_t t, const std::vector<std::size_t>& suspects, bool isSuspect,
+    const BoxGrid& grid, const MayMeet& mayMeet, Pairs& pairs) const
+  {
+    const Eigen::AlignedBox3d box = this->BoxOf(t);
+    grid.ForEachNear(box,
+      [&](std::int32_t item, const BoxGrid::Cell& cell)
+      {
+        const std::size_t suspect = suspects[item];
+        if (suspect == t || (isSuspect && suspect > t))
+        {
+          return;
+        }
+        const Eigen::AlignedBox3d other = this->BoxOf(suspect);
+        // In one of the cells that they share.
+        if (box.intersects(other) && grid.CellOf(box.min().cwiseMax(other.min())) == cell &&
+          mayMeet(suspect, t))
+        {
+          pairs.emplace_back(std::minmax(suspect, t));
+        }
+      });
+  }
+
+  Eigen::AlignedBox3d BoxOf(std::size_t t) const
   {
     Eigen::AlignedBox3d box;
-    for (std::int32_t corner : this->CornersOf(t))
+    for (const std::int32_t corner : this->CornersOf(t))
     {
       box.extend(this->Mesh.position(corner));
     }
-    std::int64_t low[3], high[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = std::llround(std::floor(box.min()[axis] / this->GridCell));
-      high[axis] = std::llround(std::floor(box.max()[axis] / this->GridCell));
-    }
-    const auto bits = [](std::int64_t x) { return static_cast<std::uint64_t>(x) & 0x1fffff; };
-    for (std::int64_t k = low[2]; k <= high[2]; ++k)
-    {
-      for (std::int64_t j = low[1]; j <= high[1]; ++j)
-      {
-        for (std::int64_t i = low[0]; i <= high[0]; ++i)
-        {
-          visit(bits(i) | bits(j) << 21 | bits(k) << 42);
-        }
-      }
-    }
+    return box;
   }
 
   bool Meet(std::size_t first, std::size_t second) const
@@ -171,7 +186,6 @@ private:
 
   const TriangleSoup& Mesh;
   const double GridCell;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> Grid;
 };
 
 }

@@ -25,8 +25,8 @@ struct TriangleSoup
 
 /// All pairs of triangles, one of them a suspect, that meet otherwise than in the corners and edges
 /// that they share; and each suspect without area, paired with itself. In ascending order, the lesser
-/// of each pair first. Only pairs of which mayMeet says so are looked at. Exact. The grid's cells
-/// should be about as large as the triangles.
+/// of each pair first. Only pairs of which mayMeet says so are looked at; it is called by all
+/// threads. Exact. The grid's cells should be about as large as the triangles.
 std::vector<std::pair<std::size_t, std::size_t>> FindIntersections(const TriangleSoup& mesh,
   const std::vector<std::size_t>& suspects, double gridCell,
   const std::function<bool(std::size_t a, std::size_t b)>& mayMeet,

@@ -2,6 +2,7 @@
 #ifndef freespace_TriangleGrid_h
 #define freespace_TriangleGrid_h
 
+#include "Mesh/BoxGrid.h"
 #include "Mesh/NearestOnTriangle.h"
 
 #include <Eigen/Geometry>
@@ -20,7 +21,7 @@ struct TrianglePlace
   Eigen::Vector3d weights = Eigen::Vector3d::Zero();
 };
 
-/// A spatial index of the triangles of a mesh: a hashed grid. Keeps references to both arrays.
+/// A spatial index of the triangles of a mesh. Keeps references to both arrays.
 class TriangleGrid
 {
 public:
@@ -35,8 +36,6 @@ public:
     double reach, int hint = -1) const;
 
 private:
-  using Index = Eigen::Matrix<std::int64_t, 3, 1>;
-
   /// A sphere around a triangle and its plane, so that most are rejected without a look at its corners.
   struct Bounds
   {
@@ -47,9 +46,6 @@ private:
   };
 
   void FindBounds();
-  void ListTriangles();
-  Index CellOf(const Eigen::Vector3d& point) const;
-  std::uint64_t KeyOf(const Index& cell) const;
   bool IsFarther(int triangle, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
     double distance) const;
   void Compare(
@@ -59,12 +55,9 @@ private:
 
   const std::vector<Eigen::Vector3d>& Points;
   const Triangles& Corners;
-  double Cell;
-  Eigen::Vector3d Low = Eigen::Vector3d::Zero();
-  std::vector<Bounds> Around;       // per triangle
-  int Bits = 0;                     // of the table's size
-  std::vector<std::uint32_t> Begin; // per place of a hash table, of its triangles
-  std::vector<std::int32_t> List;
+  double Side;                // of a cell
+  std::vector<Bounds> Around; // per triangle
+  BoxGrid Grid;
 };
 
 }
