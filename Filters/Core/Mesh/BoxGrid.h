@@ -43,8 +43,8 @@ public:
       this->Begin[i] += this->Begin[i - 1];
     }
     this->List.resize(this->Begin.back());
-    visit([&](std::uint64_t place, std::int32_t item)
-      { this->List[this->Begin[place + 1]++] = item; });
+    visit(
+      [&](std::uint64_t place, std::int32_t item) { this->List[this->Begin[place + 1]++] = item; });
   }
 
   Cell CellOf(const Eigen::Vector3d& point) const

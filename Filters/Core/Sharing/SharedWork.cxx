@@ -322,7 +322,9 @@ void SharedWork::EndLoops(const std::string& sentence)
 
 void SharedWork::Send(int to, SharedMessage message)
 {
-  this->Messages.Send(to, BytesOf(message));
+  const std::string bytes = BytesOf(message);
+  this->Exchanged += bytes.size();
+  this->Messages.Send(to, bytes);
 }
 
 bool SharedWork::Receive(int& from, SharedMessage& message)
@@ -332,6 +334,7 @@ bool SharedWork::Receive(int& from, SharedMessage& message)
   {
     return false;
   }
+  this->Exchanged += bytes.size();
   message = FromBytes<SharedMessage>(bytes);
   return true;
 }

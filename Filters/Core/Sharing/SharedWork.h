@@ -9,6 +9,7 @@
 #include "Sharing/SharedMessage.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -32,6 +33,9 @@ public:
 
   bool IsFirst() const { return this->Messages.Rank() == 0; }
   int Count() const { return this->Messages.Count(); }
+
+  /// What this process has sent and received, in bytes: in the first one, all that was exchanged.
+  std::uint64_t BytesExchanged() const { return this->Exchanged; }
 
   /// Runs work in every process. When it throws in any, this throws in all: Aborted if it did anywhere, else an Error
   /// with the sentence of the first process that failed. What others make in loops then ends soon.
@@ -67,6 +71,7 @@ private:
   bool Receive(int& from, SharedMessage& message);
 
   ProcessMessages& Messages;
+  std::uint64_t Exchanged = 0;
   std::size_t Loops = 0;
   bool HaveEnded = false; // with a failure, which all know
   // What the first process knows of the others.

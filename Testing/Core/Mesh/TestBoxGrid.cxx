@@ -33,7 +33,8 @@ TEST(BoxGrid, FindsAllBoxesThatIntersect)
   for (const int count : { 0, 1, 2, 500 })
   {
     const auto boxes = RandomBoxes(count, random);
-    const BoxGrid grid(boxes.size(), Vector3d(-2, 0, 1), 0.4, [&](std::size_t i) { return boxes[i]; });
+    const BoxGrid grid(
+      boxes.size(), Vector3d(-2, 0, 1), 0.4, [&](std::size_t i) { return boxes[i]; });
     for (const AlignedBox3d& query : RandomBoxes(100, random))
     {
       std::set<int> found, expected;

@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -130,13 +131,19 @@ TEST(SharedWork, AllHaveWhatEachHasMade)
   {
     std::atomic<int> made{ 0 };
     std::vector<std::vector<int>> first(count), second(count);
+    std::vector<std::uint64_t> exchanged(count);
     const auto ends = RunTogether(count,
       [&](int rank, SharedWork& shared)
       {
         first[rank] = Squares(100, { TwoThreads, &shared }, [&](std::size_t) { ++made; });
         second[rank] = Squares(2, { TwoThreads, &shared });
         Squares(0, { TwoThreads, &shared });
+        exchanged[rank] = shared.BytesExchanged();
       });
+    // All of it goes through the first process.
+    EXPECT_EQ(
+      exchanged[0], std::accumulate(exchanged.begin() + 1, exchanged.end(), std::uint64_t(0)));
+    EXPECT_EQ(exchanged[0] > 0, count > 1);
     EXPECT_EQ(ends, AllOf(count, ""));
     EXPECT_EQ(made, 100);
     for (int rank = 0; rank < count; ++rank)

@@ -72,6 +72,7 @@ class TestMpi(unittest.TestCase):
                 result = share(count, *arguments, '-o', other)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(result.stderr.count('wrote '), 1, result.stderr)
+                self.assertRegex(result.stderr, rf'{count} processes exchanged [\d.e+]+ MB')
                 self.assertEqual(contents(other), contents(one))
 
     def test_features(self):

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 #include <utility>
 
 namespace freespace
@@ -130,6 +131,14 @@ void Session::RunShared()
     this->ThrowIfFailed();
   };
   this->Shared() ? this->Shared()->Together(action) : action();
+  if (this->Shared() && this->IsWriter())
+  {
+    std::ostringstream megabytes;
+    megabytes.precision(3);
+    megabytes << 1e-6 * static_cast<double>(this->Shared()->BytesExchanged());
+    this->Log(
+      std::to_string(this->Shared()->Count()) + " processes exchanged " + megabytes.str() + " MB");
+  }
 }
 
 SharedWork* Session::Shared() const
