@@ -87,6 +87,10 @@ void TriangleNormals(const std::vector<Vector3d>& points,
 void FilterNormals(std::vector<Vector3d>& normals, const std::vector<double>& areas,
   const MeshEdges& edges, const NormalFilterOptions& options, const ParallelFor& parallelFor)
 {
+  if (options.iterations == 0)
+  {
+    return;
+  }
   Normals smooth(normals.size()), guides, mixed(normals.size());
   std::vector<float> weights(areas.size());
   const double unit = areas.empty() ? 1 : *std::max_element(areas.begin(), areas.end());
