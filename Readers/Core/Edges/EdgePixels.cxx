@@ -174,10 +174,11 @@ public:
   explicit PointIndex(int width)
     : Width(width)
   {
+    const std::size_t pixels = static_cast<std::size_t>(std::max(width, 0)) + 2 * LinkRadius;
     for (Row& row : this->Rows)
     {
-      row.marks.assign(width + 2 * LinkRadius + sizeof(std::uint64_t), 0);
-      row.numbers.resize(width + 2 * LinkRadius);
+      row.marks.assign(pixels + sizeof(std::uint64_t), 0);
+      row.numbers.resize(pixels);
     }
   }
 

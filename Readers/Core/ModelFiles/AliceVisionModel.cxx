@@ -145,8 +145,10 @@ void ReadAliceVisionPoints(const JsonNode& root, const Ids& images, ModelBuilder
     if (landmark.Has("color"))
     {
       const std::vector<double> given = landmark.At("color").Numbers(3);
-      std::transform(given.begin(), given.end(), color.begin(),
-        [](double c) { return static_cast<std::uint8_t>(std::clamp(c, 0.0, 255.0)); });
+      for (std::size_t k = 0; k < color.size(); ++k)
+      {
+        color[k] = static_cast<std::uint8_t>(std::clamp(given[k], 0.0, 255.0));
+      }
     }
     model.AddPoint({ x[0], x[1], x[2] }, color);
     if (!landmark.Has("observations"))

@@ -33,6 +33,16 @@ struct Reading
   }
 };
 
+// The line that is being read. Expat 2.9 deprecates the shorter name.
+std::size_t LineNumber(XML_Parser parser)
+{
+#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
+  return XML_GetCurrentLineNumber64(parser);
+#else
+  return XML_GetCurrentLineNumber(parser);
+#endif
+}
+
 void Begin(void* user, const XML_Char* name, const XML_Char** attributes)
 {
   constexpr std::size_t most = 64;
@@ -44,7 +54,7 @@ void Begin(void* user, const XML_Char* name, const XML_Char** attributes)
   }
   XmlNode& node = reading.open.emplace_back();
   node.file = reading.file;
-  node.line = XML_GetCurrentLineNumber(reading.parser);
+  node.line = LineNumber(reading.parser);
   node.name = name;
   for (; *attributes; attributes += 2)
   {
@@ -166,9 +176,8 @@ XmlNode ReadXmlFile(const std::string& file)
     if (XML_Parse(parser.get(), content.data() + begin, static_cast<int>(length),
           begin + length == content.size()) != XML_STATUS_OK)
     {
-      throw Error("Cannot read " + file + ", line " +
-        std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
-        (reading.fault.empty() ? "it is not a valid .xml" : reading.fault) + ".");
+      throw Error("Cannot read " + file + ", line " + std::to_string(LineNumber(parser.get())) +
+        ": " + (reading.fault.empty() ? "it is not a valid .xml" : reading.fault) + ".");
     }
   }
   return std::move(reading.open.front().children.front());
