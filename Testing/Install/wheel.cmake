@@ -1,6 +1,6 @@
 # Builds the wheel as pip install . does, without a network, installs it into an empty folder and makes a surface with
 # it, the same as that of the package in the build folder.
-# cmake -DSOURCE=... -DBUILD=... -DFOLDER=... -DPYTHON=... -DPACKAGE=... -DSCENE=... -P wheel.cmake
+# cmake -DSOURCE=... -DBUILD=... -DFOLDER=... -DPYTHON=... -DPACKAGE=... -DSCENE=... -DCOMPILER=... -P wheel.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -8,7 +8,9 @@ function(run)
   endif()
 endfunction()
 
-# As Testing/build compiles, which pip does not know: several files at once, and through the compiler's cache.
+# As Testing/build compiles, which pip does not know: several files at once, through the compiler's cache, and with the
+# same compiler, for which Python has a name of its own.
+set(ENV{CXX} "${COMPILER}")
 set(settings "--config-settings=build-dir=${BUILD}" --config-settings=cmake.define.CMAKE_UNITY_BUILD=ON
   --config-settings=cmake.define.FREESPACE_PRECOMPILE_HEADERS=ON)
 find_program(CCACHE ccache)
