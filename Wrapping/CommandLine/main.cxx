@@ -158,9 +158,14 @@ bool IsGivenByHand(const std::string& what, const std::vector<std::string>& word
 // The file of options; empty without one, also where that is no file.
 std::string ConfigFile(const CLI::App& program)
 {
+  const CLI::Option* config = program.get_config_ptr();
+  if (config->empty()) // of which CLI11 2.4 reads the first word, too
+  {
+    return "";
+  }
   try
   {
-    return program.get_config_ptr()->as<std::string>();
+    return config->as<std::string>();
   }
   catch (const CLI::ParseError&)
   {
