@@ -3,6 +3,7 @@
 
 #include "Common/Error.h"
 #include "Mesh/MeshValues.h"
+#include "Session/NumberValidators.h"
 #include "Session/Session.h"
 
 #include <vtkCellArray.h>

@@ -4,6 +4,7 @@
 #include "Common/Error.h"
 #include "Common/ParseNumber.h"
 #include "Files/PathChecks.h"
+#include "Session/NumberValidators.h"
 
 #include <Eigen/Dense>
 
@@ -21,23 +22,6 @@ namespace
 
 constexpr int LargestCount = 2000000000;
 
-}
-
-std::vector<double> NumbersOf(const std::string& text)
-{
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();)
-  {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::optional<double> number = ParseNumber<double>(text.substr(begin, end - begin));
-    if (!number || !std::isfinite(*number))
-    {
-      return {};
-    }
-    numbers.push_back(*number);
-    begin = end + 1;
-  }
-  return numbers;
 }
 
 std::array<double, 16> ReadMatrix(const std::string& fileName)

@@ -4,13 +4,9 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 namespace freespace
 {
-
-/// The finite numbers of a text, separated by commas; empty if it contains anything else.
-std::vector<double> NumbersOf(const std::string& text);
 
 /// The 4 x 4 numbers of a file, row by row. Throws Error naming it if they are missing, not finite, not
 /// affine or not invertible.

@@ -2,9 +2,10 @@
 #include "Options/GlobalShiftOption.h"
 
 #include "Files/GlobalShift.h"
+#include "Session/NumberValidators.h"
 
-#include <cmath>
-#include <cstdio>
+#include <algorithm>
+#include <vector>
 
 namespace freespace
 {
@@ -15,9 +16,9 @@ namespace
 // "X,Y,Z"; false where the text is anything else.
 bool ReadShift(const std::string& text, Eigen::Vector3d& shift)
 {
-  char more = 0;
-  return std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &shift[0], &shift[1], &shift[2], &more) == 3 &&
-    shift.allFinite();
+  const std::vector<double> numbers = NumbersOf(text);
+  std::copy_n(numbers.begin(), std::min<std::size_t>(numbers.size(), 3), shift.data());
+  return numbers.size() == 3;
 }
 
 std::string Fault(const std::string& text)

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options/RegionOption.h"
 
-#include "Common/ParseNumber.h"
+#include "Session/NumberValidators.h"
 
 #include <vtkFreespaceUnion.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <sstream>
-#include <string_view>
+#include <vector>
 
 namespace freespace
 {
@@ -17,24 +15,13 @@ namespace freespace
 // "x0,x1,y0,y1,z0,z1" -> the bounds; false where it is anything else.
 bool RegionOption::ReadBounds(const std::string& text, std::array<double, 6>& b)
 {
-  std::string_view rest = text;
-  bool isBox = true;
-  for (std::size_t i = 0; i < b.size() && isBox; ++i)
+  const std::vector<double> numbers = NumbersOf(text);
+  if (numbers.size() != b.size())
   {
-    const std::size_t comma = rest.find(',');
-    std::string_view number = rest.substr(0, comma);
-    number.remove_prefix(std::min(number.find_first_not_of(' '), number.size()));
-    const std::optional<double> bound = ParseNumber<double>(number);
-    isBox = bound && (comma == std::string_view::npos) == (i + 1 == b.size());
-    b[i] = bound.value_or(0);
-    rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);
+    return false;
   }
-  for (int axis = 0; axis < 3 && isBox; ++axis)
-  {
-    isBox =
-      std::isfinite(b[2 * axis]) && std::isfinite(b[2 * axis + 1]) && b[2 * axis] < b[2 * axis + 1];
-  }
-  return isBox;
+  std::copy(numbers.begin(), numbers.end(), b.begin());
+  return b[0] < b[1] && b[2] < b[3] && b[4] < b[5];
 }
 
 std::string RegionOption::Fault(const std::string& text)

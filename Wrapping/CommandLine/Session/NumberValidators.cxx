@@ -3,6 +3,7 @@
 
 #include "Common/ParseNumber.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -20,6 +21,24 @@ std::optional<double> FiniteNumber(const std::string& text)
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+}
+
+std::vector<double> NumbersOf(const std::string& text)
+{
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();)
+  {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    begin = std::min(text.find_first_not_of(' ', begin), end);
+    const std::optional<double> number = FiniteNumber(text.substr(begin, end - begin));
+    if (!number)
+    {
+      return {};
+    }
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  return numbers;
 }
 
 CLI::Validator NonNegative()

@@ -4,8 +4,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+#include <vector>
+
 namespace freespace
 {
+
+/// The finite numbers of a text, separated by commas; empty if it contains anything else.
+std::vector<double> NumbersOf(const std::string& text);
 
 /// Accepts a finite number of 0 or more. CLI11's own NonNegativeNumber accepts NaN and prints its limits
 /// with 309 digits.
