@@ -2,7 +2,7 @@
 #include "Disparity/Outliers/Outliers.h"
 
 #include "Common/Error.h"
-#include "Disparity/DelaunayDisparity.h"
+#include "Common/View.h"
 #include "Disparity/Outliers/RadiusSupport.h"
 
 #include <gtest/gtest.h>
@@ -36,13 +36,6 @@ std::vector<View> SheetViews(int features)
     }
   }
   return views;
-}
-
-std::vector<DisparityMap> OwnMaps(const std::vector<View>& views)
-{
-  DelaunayDisparityOptions options;
-  options.minimumDisparity = false;
-  return TriangulateViews(views, options);
 }
 
 std::size_t CountAccepted(const std::vector<char>& accepted)
