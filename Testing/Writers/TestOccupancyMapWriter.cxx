@@ -227,7 +227,6 @@ TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
   const std::string folder = temporary.Path();
   for (const char* ending : { ".bt", ".ot" })
   {
-    std::size_t whole = 0;
     // While Phi is built, the maps are drawn, the map is filled, pruned and written.
     for (const double stopAt : { 2.0, 0.0, 0.1, 0.3, 0.41, 0.6, 0.8, 0.9, 0.91 })
     {
@@ -248,13 +247,11 @@ TEST(OccupancyMapWriter, ProgressMovesAndAWishToStopIsHeardEverywhere)
       EXPECT_TRUE(fs::is_empty(folder));
       if (stopAt > 1)
       {
-        whole = watcher.seen.size();
-        EXPECT_GT(whole, 100u);
+        EXPECT_GT(watcher.seen.size(), 100u);
         EXPECT_EQ(watcher.seen.back(), 1.0);
         continue;
       }
       EXPECT_EQ(writer->GetErrorCode(), vtkErrorCode::UserError);
-      EXPECT_LT(watcher.seen.back(), 1.0);
       EXPECT_EQ(watcher.after, stopAt > 0 ? 0 : 1); // the first event is the pipeline's own
     }
   }
