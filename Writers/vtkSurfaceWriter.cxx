@@ -104,7 +104,8 @@ bool WriteOBJ(vtkPolyData* shifted, const std::string& shiftComment, const std::
   return true;
 }
 
-bool WriteVTP(vtkPolyData* shifted, const Eigen::Vector3d& globalShift, const std::string& fileName)
+bool WriteVTP(vtkPolyData* shifted, const Eigen::Vector3d& globalShift, bool isInline,
+  const std::string& fileName)
 {
   if (!globalShift.isZero(0))
   {
@@ -118,11 +119,15 @@ bool WriteVTP(vtkPolyData* shifted, const Eigen::Vector3d& globalShift, const st
     shifted->SetFieldData(fields);
   }
   vtkNew<vtkXMLPolyDataWriter> writer;
+  if (isInline)
+  {
+    writer->SetDataModeToBinary();
+  }
   return WriteWith(writer.Get(), shifted, fileName);
 }
 
 bool WriteByEnding(vtkPolyData* surface, const Eigen::Vector3d& globalShift,
-  const std::string& ending, const std::string& fileName, const std::string& target)
+  const std::string& ending, bool isInline, const std::string& fileName, const std::string& target)
 {
   if (ending == ".ply")
   {
@@ -139,7 +144,7 @@ bool WriteByEnding(vtkPolyData* surface, const Eigen::Vector3d& globalShift,
   {
     return WriteOBJ(shifted, comment, fileName);
   }
-  return WriteVTP(shifted, globalShift, fileName);
+  return WriteVTP(shifted, globalShift, isInline, fileName);
 }
 
 }
@@ -187,7 +192,8 @@ void vtkSurfaceWriter::WriteData()
       {
         throw freespace::Error("The global shift of a surface must be finite.");
       }
-      if (!WriteByEnding(surface, shift, ending, written.string(), this->FileName))
+      if (!WriteByEnding(
+            surface, shift, ending, this->InlineArrays != 0, written.string(), this->FileName))
       {
         throw target.Failure();
       }
@@ -202,4 +208,5 @@ void vtkSurfaceWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << this->FileName << "\n";
   os << indent << "GlobalShift: " << this->GlobalShift[0] << " " << this->GlobalShift[1] << " "
      << this->GlobalShift[2] << "\n";
+  os << indent << "InlineArrays: " << this->InlineArrays << "\n";
 }

@@ -53,6 +53,16 @@ public:
    */
   static void SuggestGlobalShift(const double bounds[6], double shift[3]);
 
+  ///@{
+  /**
+   * Whether a .vtp has its arrays inline, as text, and not appended as bytes: larger, for programs that cannot read the
+   * latter, such as ParaView 5.11 with the libexpat of Debian 12. Default off.
+   */
+  vtkSetMacro(InlineArrays, vtkTypeBool);
+  vtkGetMacro(InlineArrays, vtkTypeBool);
+  vtkBooleanMacro(InlineArrays, vtkTypeBool);
+  ///@}
+
   /**
    * Whether the class writes files with this extension.
    */
@@ -67,6 +77,7 @@ protected:
 
   std::string FileName;
   double GlobalShift[3] = { 0, 0, 0 };
+  vtkTypeBool InlineArrays = false;
 
 private:
   vtkSurfaceWriter(const vtkSurfaceWriter&) = delete;

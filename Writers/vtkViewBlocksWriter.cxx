@@ -97,6 +97,10 @@ void vtkViewBlocksWriter::WriteData()
       // As fast as the disk: zlib and base64 take longer than all that made the maps.
       writer->SetCompressorTypeToLZ4();
       writer->EncodeAppendedDataOff();
+      if (this->InlineArrays)
+      {
+        writer->SetDataModeToBinary();
+      }
       if (!writer->Write() || writer->GetErrorCode() != vtkErrorCode::NoError)
       {
         throw target.Failure();
@@ -110,4 +114,5 @@ void vtkViewBlocksWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "InlineArrays: " << this->InlineArrays << "\n";
 }

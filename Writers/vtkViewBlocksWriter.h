@@ -33,6 +33,16 @@ public:
   vtkGetFilePathStringMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * Whether each .vtp has its arrays inline, as text, and not appended as bytes: larger, for programs that cannot read the
+   * latter, such as ParaView 5.11 with the libexpat of Debian 12. Default off.
+   */
+  vtkSetMacro(InlineArrays, vtkTypeBool);
+  vtkGetMacro(InlineArrays, vtkTypeBool);
+  vtkBooleanMacro(InlineArrays, vtkTypeBool);
+  ///@}
+
 protected:
   vtkViewBlocksWriter() = default;
   ~vtkViewBlocksWriter() override = default;
@@ -41,6 +51,7 @@ protected:
   void WriteData() override;
 
   std::string FileName;
+  vtkTypeBool InlineArrays = false;
 
 private:
   vtkViewBlocksWriter(const vtkViewBlocksWriter&) = delete;

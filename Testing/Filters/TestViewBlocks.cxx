@@ -89,19 +89,20 @@ TEST(ViewBlocks, RoundTripOnDisk)
   const TemporaryFolder temporary;
   const std::string folder = temporary.Path();
   const std::string file = folder + "/maps.vtm";
-  for (int pass = 0; pass < 2; ++pass) // the second replaces the first
+  for (const bool isInline : { false, true }) // the second replaces the first
   {
     vtkNew<vtkViewBlocksWriter> writer;
     writer->SetInputDataObject(MakeBlocks());
     writer->SetFileName(file);
+    writer->SetInlineArrays(isInline);
     ASSERT_EQ(writer->Write(), 1);
+    vtkNew<vtkViewBlocksReader> reader;
+    reader->SetFileName(file);
+    reader->Update();
+    const std::vector<DisparityMap> maps = MapsFromBlocks(reader->GetOutput());
+    ASSERT_EQ(maps.size(), 2u);
+    ExpectSame(maps[1], MakeMap(1));
   }
-  vtkNew<vtkViewBlocksReader> reader;
-  reader->SetFileName(file);
-  reader->Update();
-  const std::vector<DisparityMap> maps = MapsFromBlocks(reader->GetOutput());
-  ASSERT_EQ(maps.size(), 2u);
-  ExpectSame(maps[1], MakeMap(1));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2)
     << "something half-written was left behind";
 }

@@ -21,6 +21,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 using namespace freespace;
@@ -78,6 +79,26 @@ vtkSmartPointer<vtkPolyData> WriteAndRead(vtkPolyData* surface, const std::strin
   return reader->GetOutput();
 }
 
+}
+
+TEST(vtkSurfaceWriter, ArraysAreInlineWhereAskedFor)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.Path("surface.vtp");
+  const vtkSmartPointer<vtkPolyData> surface = MakeTetrahedron();
+  vtkNew<vtkSurfaceWriter> writer;
+  writer->SetInputDataObject(surface);
+  writer->SetFileName(file);
+  writer->InlineArraysOn();
+  EXPECT_EQ(writer->Write(), 1);
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_EQ(text.str().find("appended"), std::string::npos);
+  EXPECT_NE(text.str().find("format=\"binary\""), std::string::npos);
+  vtkNew<vtkSurfaceReader> reader;
+  reader->SetFileName(file);
+  EXPECT_EQ(ErrorOfUpdate(reader), "");
+  EXPECT_EQ(Triangles(reader->GetOutput()), Triangles(surface));
 }
 
 TEST(vtkSurfaceWriter, WhatIsWrittenIsReadAgain)
