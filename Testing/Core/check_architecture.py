@@ -16,9 +16,9 @@ import os
 import re
 import sys
 
-ROOTS = ['Filters', 'Readers', 'Rendering', 'Writers', 'Wrapping']
+ROOTS = ['Filters', 'Readers', 'Rendering', 'Writers', 'Wrapping', 'ParaView']
 INCLUDE_DIRS = ['Filters/Core', 'Readers/Core', 'Rendering/Core', 'Filters', 'Readers', 'Rendering',
-                'Writers', 'Wrapping/CommandLine', 'Testing']
+                'Writers', 'Wrapping/CommandLine', 'ParaView/Phi', 'ParaView/Texture', 'Testing']
 MOST_LINES = 500
 MOST_FILES = 20
 MOST_FUNCTION_LINES = 80
