@@ -17,7 +17,7 @@ PROGRAM = os.environ['FREESPACE_PROGRAM']
 MPIEXEC = os.environ.get('FREESPACE_MPIEXEC', '')
 # Open MPI starts as root, and more processes than there are cores, only when told so.
 ALLOWED = {'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
-           'OMPI_MCA_rmaps_base_oversubscribe': '1'}
+           'OMPI_MCA_rmaps_base_oversubscribe': '1', 'PRTE_MCA_rmaps_default_mapping_policy': ':oversubscribe'}
 ENVIRONMENT = {**os.environ, **ALLOWED}
 FAST = ('--no-patches',) # half of the time, and nothing that is shared out differently
 

@@ -84,6 +84,7 @@ class Run:
             return
         for it in self.watched: # their outputs are not what they should be
             if hasattr(it, 'GetAbortExecute') and it.GetAbortExecute():
+                it.SetAbortExecute(0) # VTK 9.3 does not
                 it.Modified()
         if self.outer is not None and not isinstance(self.reason, Exception):
             self.outer.stop(self.reason)
