@@ -28,7 +28,8 @@ public:
     this->Algorithm->RemoveObserver(tag);
     if (this->IsStopped)
     {
-      this->Algorithm->Modified(); // its output is not what it should be
+      this->Algorithm->SetAbortExecute(0); // which VTK 9.3 leaves to who has set it
+      this->Algorithm->Modified();         // its output is not what it should be
       throw Aborted();
     }
   }
