@@ -5,6 +5,7 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/ObservedTriangles.h"
+#include "Data/SurfaceMesh.h"
 #include "Data/SurfaceViewpoint.h"
 #include "Data/ViewBlocks.h"
 #include "Files/GlobalShift.h"
@@ -33,28 +34,13 @@ vtkStandardNewMacro(vtkSurfaceReader);
 namespace
 {
 
-// Adds the global shift of a file to its points, see vtkSurfaceWriter::GlobalShift.
-void AddGlobalShift(vtkPolyData* surface, const Eigen::Vector3d& shift)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(surface->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    Eigen::Vector3d point;
-    surface->GetPoint(i, point.data());
-    point += shift;
-    points->SetPoint(i, point.data());
-  }
-  surface->SetPoints(points);
-}
-
+// See vtkSurfaceWriter::GlobalShift.
 void AddGlobalShiftOfField(vtkPolyData* surface)
 {
   vtkDataArray* array = surface->GetFieldData()->GetArray("GlobalShift");
   if (array && array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 3)
   {
-    AddGlobalShift(surface, Eigen::Vector3d(array->GetTuple(0)));
+    surface->SetPoints(freespace::MovedPoints(surface, Eigen::Vector3d(array->GetTuple(0))));
     surface->GetFieldData()->RemoveArray("GlobalShift");
   }
 }
@@ -88,7 +74,7 @@ void ReadComments(const freespace::SurfaceFile& file, vtkPolyData* surface)
     }
     if (const auto shift = freespace::GlobalShiftFromComment(comment))
     {
-      AddGlobalShift(surface, *shift);
+      surface->SetPoints(freespace::MovedPoints(surface, *shift));
     }
   }
 }

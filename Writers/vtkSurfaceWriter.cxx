@@ -6,6 +6,7 @@
 #include "Common/Error.h"
 #include "Common/FileExtension.h"
 #include "Data/Boxes.h"
+#include "Data/SurfaceMesh.h"
 #include "Data/SurfaceViewpoint.h"
 #include "PlyWriter.h"
 #include "RunWriter.h"
@@ -44,21 +45,10 @@ vtkSmartPointer<vtkPolyData> Shifted(vtkPolyData* surface, const Eigen::Vector3d
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(surface);
-  if (globalShift.isZero(0))
+  if (!globalShift.isZero(0))
   {
-    return result;
+    result->SetPoints(freespace::MovedPoints(surface, -globalShift));
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(surface->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    Eigen::Vector3d point;
-    surface->GetPoint(i, point.data());
-    point -= globalShift;
-    points->SetPoint(i, point.data());
-  }
-  result->SetPoints(points);
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTriangleFilter.h>
 
@@ -39,6 +40,21 @@ TriangleMesh MeshFromPolyData(vtkPolyData* surface)
     }
   }
   return mesh;
+}
+
+vtkSmartPointer<vtkPoints> MovedPoints(vtkPolyData* surface, const Eigen::Vector3d& offset)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(surface->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Eigen::Vector3d point;
+    surface->GetPoint(i, point.data());
+    point += offset;
+    points->SetPoint(i, point.data());
+  }
+  return points;
 }
 
 }

@@ -5,6 +5,11 @@
 #include "Mesh/TriangleMesh.h"
 #include "vtkFreespaceFiltersModule.h"
 
+#include <vtkSmartPointer.h>
+
+#include <Eigen/Core>
+
+class vtkPoints;
 class vtkPolyData;
 
 namespace freespace
@@ -12,6 +17,10 @@ namespace freespace
 
 /// The triangles of a surface; strips and larger polygons are cut into triangles.
 VTKFREESPACEFILTERS_EXPORT TriangleMesh MeshFromPolyData(vtkPolyData* surface);
+
+/// The points of a surface plus an offset, in double precision.
+VTKFREESPACEFILTERS_EXPORT vtkSmartPointer<vtkPoints> MovedPoints(
+  vtkPolyData* surface, const Eigen::Vector3d& offset);
 
 }
 

@@ -2,7 +2,6 @@
 #include "Mesh/Fit/FitSurface.h"
 
 #include "Common/Error.h"
-#include "Mesh/TriangleIntersections.h"
 #include "Support/ContourFields.h"
 #include "Support/Core/BoxMesh.h"
 #include "Support/MeshTopology.h"
@@ -11,7 +10,6 @@
 
 #include <Eigen/Dense>
 
-#include <numeric>
 #include <random>
 
 using namespace freespace;
@@ -54,18 +52,6 @@ double RootMeanSquare(const std::vector<Vector3d>& points)
   return std::sqrt(sum / points.size());
 }
 
-std::size_t Intersections(
-  const std::vector<Vector3d>& points, const std::vector<std::array<std::int32_t, 3>>& triangles)
-{
-  TriangleSoup soup;
-  soup.position = [&](std::int32_t v) { return points[v]; };
-  soup.triangles = triangles.front().data();
-  soup.count = triangles.size();
-  std::vector<std::size_t> all(triangles.size());
-  std::iota(all.begin(), all.end(), 0);
-  return FindIntersections(soup, all, 0.1, [](std::size_t, std::size_t) { return true; }).size();
-}
-
 }
 
 TEST(FitSurface, FindsTheFacesOfANoisyBox)
@@ -77,7 +63,7 @@ TEST(FitSurface, FindsTheFacesOfANoisyBox)
   EXPECT_GT(before, 0.006);
   EXPECT_LT(RootMeanSquare(mesh.points), 0.25 * before);
   EXPECT_EQ(TopologyFaults(mesh), "");
-  EXPECT_EQ(Intersections(mesh.points, mesh.triangles), 0u);
+  EXPECT_EQ(CountIntersections(mesh.points, mesh.triangles), 0u);
 }
 
 TEST(FitSurface, MovesAFaceThatIsBiased)

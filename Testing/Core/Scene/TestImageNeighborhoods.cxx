@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/ImageNeighborhoods.h"
 
+#include "Support/Core/ParallelCameras.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,22 +16,10 @@ using Eigen::Vector3d;
 namespace
 {
 
-// Cameras of 800 x 800 pixels that look along z, all alike, at places in the plane z = 0: at depth d they see a
-// square of side 0.8 d.
-SparseModel ParallelCameras(const std::vector<Eigen::Vector2d>& places)
+// At depth d they see a square of side 0.8 d.
+SparseModel CamerasAt(const std::vector<Eigen::Vector2d>& places)
 {
-  SparseModel model;
-  model.cameras.push_back({ 1, LensModel::Pinhole, 800, 800, { 1000, 1000, 400, 400 } });
-  for (const Eigen::Vector2d& place : places)
-  {
-    SparseImage image;
-    image.id = static_cast<std::uint32_t>(model.images.size() + 1);
-    image.name = std::to_string(image.id) + ".jpg";
-    image.camera = 1;
-    image.translation = -Vector3d(place.x(), place.y(), 0);
-    model.images.push_back(image);
-  }
-  return model;
+  return ParallelCameras(places, 1000);
 }
 
 // Points of a dense grid at depth 10, observed by each image that sees them.
@@ -62,7 +52,7 @@ SparseModel WithScreen(SparseModel model, double depth = 10)
 TEST(ImageNeighborhoods, DepthIsThatOfThePoints)
 {
   const ImageNeighborhoods images(
-    WithScreen(ParallelCameras({ { 0, 0 }, { 1, 0 } }), 7), ClusterProposalOptions());
+    WithScreen(CamerasAt({ { 0, 0 }, { 1, 0 } }), 7), ClusterProposalOptions());
   EXPECT_EQ(images.Size(), 2u);
   EXPECT_NEAR(images.Depth(0), 7, 1e-9);
   EXPECT_NEAR(images.Depth(1), 7, 1e-9);
@@ -73,7 +63,7 @@ TEST(ImageNeighborhoods, DepthWithoutPointsIsThatOfThePreferredAngle)
 {
   ClusterProposalOptions options;
   options.preferredAngle = 10;
-  const ImageNeighborhoods images(ParallelCameras({ { 0, 0 }, { 2, 0 }, { 5, 0 } }), options);
+  const ImageNeighborhoods images(CamerasAt({ { 0, 0 }, { 2, 0 }, { 5, 0 } }), options);
   EXPECT_NEAR(images.Depth(0), 2 / std::tan(10 * M_PI / 180), 1e-9);
   EXPECT_NEAR(images.Depth(2), 3 / std::tan(10 * M_PI / 180), 1e-9);
 }
@@ -81,7 +71,7 @@ TEST(ImageNeighborhoods, DepthWithoutPointsIsThatOfThePreferredAngle)
 // Axes that cross: at the depth where they do.
 TEST(ImageNeighborhoods, DepthWithoutPointsIsWhereTheAxesCross)
 {
-  SparseModel model = ParallelCameras({ { 0, 0 }, { 0, 0 } });
+  SparseModel model = CamerasAt({ { 0, 0 }, { 0, 0 } });
   const Eigen::Matrix3d turned =
     Eigen::AngleAxisd(0.3, Vector3d::UnitY()).toRotationMatrix(); // about (0, 0, 4)
   const Eigen::Quaterniond q(turned);
@@ -96,8 +86,7 @@ TEST(ImageNeighborhoods, DepthWithoutPointsIsWhereTheAxesCross)
 TEST(ImageNeighborhoods, OverlapIsThatOfTheSquaresOnTheScreen)
 {
   const ImageNeighborhoods images(
-    WithScreen(ParallelCameras({ { 0, 0 }, { 2, 0 }, { 2, 2 }, { -9, 0 } })),
-    ClusterProposalOptions());
+    WithScreen(CamerasAt({ { 0, 0 }, { 2, 0 }, { 2, 2 }, { -9, 0 } })), ClusterProposalOptions());
   EXPECT_EQ(images.Overlap(0, 0), 1);
   EXPECT_NEAR(images.Overlap(0, 1), 0.75, 0.06) << "300 points of all";
   EXPECT_NEAR(images.Overlap(0, 2), 0.75 * 0.75, 0.06);
@@ -106,7 +95,7 @@ TEST(ImageNeighborhoods, OverlapIsThatOfTheSquaresOnTheScreen)
 
 TEST(ImageNeighborhoods, WhatHasNoPointInCommonDoesNotOverlap)
 {
-  SparseModel model = WithScreen(ParallelCameras({ { 0, 0 }, { 0.5, 0 } }));
+  SparseModel model = WithScreen(CamerasAt({ { 0, 0 }, { 0.5, 0 } }));
   for (SparseObservation& observation : model.images[1].observations)
   {
     observation.point = SparseObservation::noPoint; // something occludes them
@@ -118,7 +107,7 @@ TEST(ImageNeighborhoods, WhatHasNoPointInCommonDoesNotOverlap)
 TEST(ImageNeighborhoods, AnglesAreSeenFromTheScene)
 {
   const ImageNeighborhoods images(
-    WithScreen(ParallelCameras({ { 0, 0 }, { 1, 0 }, { 0, -3 } })), ClusterProposalOptions());
+    WithScreen(CamerasAt({ { 0, 0 }, { 1, 0 }, { 0, -3 } })), ClusterProposalOptions());
   EXPECT_NEAR(images.AngleBetween(0, 1), std::atan2(1, 10), 1e-3);
   EXPECT_NEAR(images.AngleBetween(0, 2), std::atan2(3, 10), 1e-3);
   EXPECT_EQ(images.AngleBetween(0, 0), 0);
@@ -133,7 +122,7 @@ TEST(ImageNeighborhoods, WithinAnAngleAgreesWithBruteForce)
   {
     at = { place(random), place(random) };
   }
-  const ImageNeighborhoods images(WithScreen(ParallelCameras(places)), ClusterProposalOptions());
+  const ImageNeighborhoods images(WithScreen(CamerasAt(places)), ClusterProposalOptions());
   for (std::size_t i = 0; i < places.size(); i += 7)
   {
     for (const double angle : { 2.0, 6.0, 15.0 })
@@ -160,7 +149,7 @@ TEST(ImageNeighborhoods, NeighboursAreWithinTheAnglesAndTheBestFirst)
   {
     places.emplace_back(10 * std::tan(angle * degree), 0);
   }
-  const ImageNeighborhoods images(WithScreen(ParallelCameras(places)), ClusterProposalOptions());
+  const ImageNeighborhoods images(WithScreen(CamerasAt(places)), ClusterProposalOptions());
   const std::vector<Neighbor> neighbors = images.NeighborsOf(0);
   std::vector<int> order;
   for (const Neighbor& neighbor : neighbors)
@@ -178,7 +167,7 @@ TEST(ImageNeighborhoods, NeighboursAreWithinTheAnglesAndTheBestFirst)
 
 TEST(ImageNeighborhoods, ANeighbourStraightAheadIsNone)
 {
-  SparseModel model = ParallelCameras({ { 0, 0 }, { 0, 0 } });
+  SparseModel model = CamerasAt({ { 0, 0 }, { 0, 0 } });
   model.images[1].translation = { -0.1, 0, -2 }; // its epipole is in the image
   EXPECT_TRUE(
     ImageNeighborhoods(WithScreen(model), ClusterProposalOptions()).NeighborsOf(0).empty());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Scene/ReferenceChoice.h"
 
+#include "Support/Core/ParallelCameras.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,17 +19,7 @@ namespace
 // Cameras in the plane z = 0 that look along z onto a screen of points at depth 10, wide enough for all.
 SparseModel LookingAtAScreen(const std::vector<Eigen::Vector2d>& places)
 {
-  SparseModel model;
-  model.cameras.push_back({ 1, LensModel::Pinhole, 800, 800, { 500, 500, 400, 400 } });
-  for (const Eigen::Vector2d& place : places)
-  {
-    SparseImage image;
-    image.id = static_cast<std::uint32_t>(model.images.size() + 1);
-    image.name = std::to_string(image.id) + ".jpg";
-    image.camera = 1;
-    image.translation = -Vector3d(place.x(), place.y(), 0);
-    model.images.push_back(image);
-  }
+  SparseModel model = ParallelCameras(places, 500);
   for (double x = -2; x <= 2; x += 0.5)
   {
     for (double y = -2; y <= 2; y += 0.5)
@@ -60,6 +52,17 @@ std::vector<PossibleReference> AllPossible(std::size_t count, std::mt19937* rand
   return possible;
 }
 
+std::vector<Eigen::Vector2d> RandomPlaces(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> place(-2.5, 2.5);
+  std::vector<Eigen::Vector2d> places(150);
+  for (Eigen::Vector2d& at : places)
+  {
+    at = { place(random), place(random) };
+  }
+  return places;
+}
+
 }
 
 TEST(ReferenceChoice, WithoutASeparationAllAreTaken)
@@ -90,12 +93,7 @@ TEST(ReferenceChoice, OfTwoThatAreCloseTheBetterIsTaken)
 TEST(ReferenceChoice, KeepsItsDistanceAndLeavesNoGap)
 {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-2.5, 2.5);
-  std::vector<Eigen::Vector2d> places(150);
-  for (Eigen::Vector2d& at : places)
-  {
-    at = { place(random), place(random) };
-  }
+  const std::vector<Eigen::Vector2d> places = RandomPlaces(random);
   ClusterProposalOptions options;
   options.coverage = 0;
   const ImageNeighborhoods images(LookingAtAScreen(places), options);
@@ -130,12 +128,7 @@ TEST(ReferenceChoice, KeepsItsDistanceAndLeavesNoGap)
 TEST(ReferenceChoice, WhatIsCoveredOftenEnoughIsLeftOut)
 {
   std::mt19937 random(6);
-  std::uniform_real_distribution<double> place(-2.5, 2.5);
-  std::vector<Eigen::Vector2d> places(150);
-  for (Eigen::Vector2d& at : places)
-  {
-    at = { place(random), place(random) };
-  }
+  const std::vector<Eigen::Vector2d> places = RandomPlaces(random);
   ClusterProposalOptions options;
   const ImageNeighborhoods images(LookingAtAScreen(places), options);
   const std::vector<PossibleReference> possible = AllPossible(places.size(), &random);

@@ -3,12 +3,14 @@
 #define freespace_BoxMesh_h
 
 #include "Contour/Lattice/ContourMesh.h"
+#include "Mesh/TriangleIntersections.h"
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -71,6 +73,19 @@ inline void AddNoise(std::vector<Eigen::Vector3d>& points, double deviation)
   {
     p += Eigen::Vector3d(noise(random), noise(random), noise(random));
   }
+}
+
+/// Pairs of triangles that intersect, and triangles without area.
+inline std::size_t CountIntersections(const std::vector<Eigen::Vector3d>& points,
+  const std::vector<std::array<std::int32_t, 3>>& triangles)
+{
+  TriangleSoup soup;
+  soup.position = [&](std::int32_t v) { return points[v]; };
+  soup.triangles = triangles.front().data();
+  soup.count = triangles.size();
+  std::vector<std::size_t> all(triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  return FindIntersections(soup, all, 0.1, [](std::size_t, std::size_t) { return true; }).size();
 }
 
 }
