@@ -79,13 +79,13 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
   {
     this->Begin[cell + 1] += this->Begin[cell];
   }
-  this->Groups.resize((this->Begin.back() + 3) / 4);
+  this->Groups.resize((this->Begin.back() + PieceGroup::Size - 1) / PieceGroup::Size);
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   this->VisitCells(
     [&](int row, int column, const Piece& piece)
     {
-      const int place = next[row * this->Columns + column]++, i = place % 4;
-      PieceGroup& group = this->Groups[place / 4];
+      const int place = next[row * this->Columns + column]++, i = place % PieceGroup::Size;
+      PieceGroup& group = this->Groups[place / PieceGroup::Size];
       group.low[i] = piece.low;
       group.high[i] = piece.high;
       group.u[i] = piece.ColumnAt(this->FirstRow + static_cast<float>(row));

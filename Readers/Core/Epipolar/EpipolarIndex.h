@@ -4,10 +4,10 @@
 
 #include "Edges/EdgeTokens.h"
 #include "Epipolar/EpipolarPair.h"
-
-#include <opencv2/core/hal/intrin.hpp>
+#include "Epipolar/PieceGroup.h"
 
 #include <algorithm>
+#include <array>
 
 namespace freespace
 {
@@ -69,12 +69,7 @@ public:
   }
 
   /// What to look for in a row.
-  struct Search
-  {
-    float near, far;          ///< columns [near, far)
-    float tangentU, tangentV; ///< of the edge
-    float minimumCosine;      ///< of the angle to it
-  };
+  using Search = EdgeSearch;
 
   /// Calls visit(token, u, cosine, width) for all pieces that cross row v as the search wants; the
   /// width is how far the crossing moves along the row when the edge moves one pixel across, in the
@@ -90,35 +85,16 @@ public:
     const int begin = this->Begin[row * this->Columns + this->ColumnOf(search.near - this->Widest)];
     const int end =
       this->Begin[row * this->Columns + this->ColumnOf(search.far + this->Widest) + 1];
-    const cv::v_float32x4 at = cv::v_setall_f32(static_cast<float>(v));
-    const cv::v_float32x4 down = cv::v_setall_f32(static_cast<float>(v - this->FirstRow - row));
-    const cv::v_float32x4 near = cv::v_setall_f32(search.near), far = cv::v_setall_f32(search.far);
-    const cv::v_float32x4 tangentU = cv::v_setall_f32(search.tangentU);
-    const cv::v_float32x4 tangentV = cv::v_setall_f32(search.tangentV);
-    const cv::v_float32x4 least = cv::v_setall_f32(search.minimumCosine);
-    float columns[4], cosines[4];
-    for (int first = begin & ~3; first < end; first += 4)
+    const RowSearch wanted = { search, static_cast<float>(v),
+      static_cast<float>(v - this->FirstRow - row) };
+    std::array<PieceCrossing, PiecesAtATime> found;
+    for (int first = begin / PiecesAtATime * PiecesAtATime; first < end; first += PiecesAtATime)
     {
-      const PieceGroup& group = this->Groups[first / 4];
-      const cv::v_float32x4 u = cv::v_load(group.u) + down * cv::v_load(group.slope);
-      const cv::v_float32x4 cosine =
-        cv::v_abs(tangentU * cv::v_load(group.tangentU) + tangentV * cv::v_load(group.tangentV));
-      int found = cv::v_signmask((cv::v_load(group.low) <= at) & (at < cv::v_load(group.high)) &
-        (u >= near) & (u < far) & (cosine >= least));
-      found &= first < begin ? 15 << (begin - first) : 15;
-      found &= first + 4 > end ? 15 >> (first + 4 - end) : 15;
-      if (found == 0)
+      const int count = FindCrossings(&this->Groups[first / PieceGroup::Size],
+        std::max(begin - first, 0), std::min(end - first, PiecesAtATime), wanted, found.data());
+      for (int k = 0; k < count; ++k)
       {
-        continue;
-      }
-      cv::v_store(columns, u);
-      cv::v_store(cosines, cosine);
-      for (int k = 0; found != 0; ++k, found >>= 1)
-      {
-        if (found & 1)
-        {
-          visit(group.token[k], columns[k], cosines[k], group.width[k]);
-        }
+        visit(found[k].token, found[k].u, found[k].cosine, found[k].width);
       }
     }
   }
@@ -140,14 +116,7 @@ private:
   template <typename Visitor>
   void VisitCells(Visitor&& visit) const;
 
-  // Four pieces, so that processors compare them at once.
-  struct PieceGroup
-  {
-    float low[4], high[4];
-    float u[4]; // where it crosses the upper border of the cell's row
-    float slope[4], tangentU[4], tangentV[4], width[4];
-    int token[4];
-  };
+  static constexpr int PiecesAtATime = 4 * PieceGroup::Size;
 
   LargeVector<Piece> Pieces;      // per token
   LargeVector<PieceGroup> Groups; // by cell; in that of their start, in each row that they touch
