@@ -7,8 +7,10 @@
 #include <vtkNew.h>
 #include <vtkSurfaceWriter.h>
 
-#include <cstdlib>
+#include <charconv>
+#include <cstring>
 #include <iostream>
+#include <system_error>
 
 int main(int argc, char* argv[])
 {
@@ -16,6 +18,19 @@ int main(int argc, char* argv[])
   {
     std::cerr << "usage: ReconstructScene SCENE.json OUT.ply [CELLS]\n";
     return 2;
+  }
+  vtkNew<vtkFreespaceSurfaceFilter> surface;
+  if (argc > 3)
+  {
+    int cells = 0;
+    const char* end = argv[3] + std::strlen(argv[3]);
+    const auto [stop, code] = std::from_chars(argv[3], end, cells);
+    if (code != std::errc() || stop != end)
+    {
+      std::cerr << "CELLS: '" << argv[3] << "' is not a whole number\n";
+      return 2;
+    }
+    surface->SetCells(cells);
   }
   vtkNew<vtkEdgeStereoReader> stereo;
   stereo->SetFileName(argv[1]);
@@ -29,12 +44,7 @@ int main(int argc, char* argv[])
   std::cout << maps->GetOutput()->GetNumberOfBlocks() << " disparity maps, "
             << maps->GetOutput()->GetNumberOfPoints() << " points\n";
 
-  vtkNew<vtkFreespaceSurfaceFilter> surface;
   surface->SetInputConnection(maps->GetOutputPort());
-  if (argc > 3)
-  {
-    surface->SetCells(std::atoi(argv[3]));
-  }
   vtkNew<vtkSurfaceWriter> writer;
   writer->SetInputConnection(surface->GetOutputPort());
   writer->SetFileName(argv[2]);
