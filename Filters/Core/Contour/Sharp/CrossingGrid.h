@@ -37,7 +37,7 @@ struct CrossingGrid
     }
   }
 
-  /// Adds those of a cell and of all cells that touch it.
+  /// Adds those of all lattice edges that begin at a point of a cell or of one that touches it.
   void AddAround(const LatticeIndex& cell, std::vector<SurfacePlane>& planes) const;
 
   /// Collects the crossings of a block and of the 26 around it.
