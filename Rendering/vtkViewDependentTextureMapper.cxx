@@ -134,7 +134,8 @@ void vtkViewDependentTextureMapper::InternalState::MakeProgram(int blended)
   }
   const std::string source = "//VTK::System::Dec\n//VTK::Output::Dec\n#define BLENDED_VIEWS " +
     std::to_string(blended) + "\n" + ViewDependentTexture;
-  this->coloring.reset(new vtkOpenGLQuadHelper(this->window, nullptr, source.c_str(), nullptr));
+  this->coloring =
+    std::make_unique<vtkOpenGLQuadHelper>(this->window, nullptr, source.c_str(), nullptr);
   this->blendedViews = blended;
 }
 

@@ -12,8 +12,8 @@ namespace freespace
 class FileLock
 {
 public:
-  FileLock() = default; ///< holds nothing
-  FileLock(FileLock&& other) noexcept;
+  FileLock() = default;                ///< holds nothing
+  FileLock(FileLock&& other) noexcept; ///< the other one holds nothing then
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
 

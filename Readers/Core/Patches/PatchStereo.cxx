@@ -68,7 +68,7 @@ public:
 
   AlignedPatch Align(const PatchPlane& initial) const
   {
-    const AlignedPatch fine = this->Fine.Align(initial);
+    AlignedPatch fine = this->Fine.Align(initial);
     if (fine.isGood)
     {
       return fine;

@@ -61,9 +61,9 @@ public:
     {
       pixels[i] = (this->Seen.K * corners[i]).hnormalized();
     }
-    const int firstRow = this->First(std::min({ pixels[0].y(), pixels[1].y(), pixels[2].y() }));
+    const int firstRow = First(std::min({ pixels[0].y(), pixels[1].y(), pixels[2].y() }));
     const int lastRow =
-      this->Last(std::max({ pixels[0].y(), pixels[1].y(), pixels[2].y() }), this->Image.height);
+      Last(std::max({ pixels[0].y(), pixels[1].y(), pixels[2].y() }), this->Image.height);
     for (int row = firstRow; row <= lastRow; ++row)
     {
       this->DrawRow(pixels, plane, row);

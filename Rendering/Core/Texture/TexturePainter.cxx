@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace freespace
 {
@@ -138,7 +139,7 @@ void TexturePainter::Set(std::size_t at, const Eigen::Vector3d& color)
 {
   for (int channel = 0; channel < 3; ++channel)
   {
-    this->Atlas.rgb[3 * at + channel] = static_cast<unsigned char>(color[channel] + 0.5);
+    this->Atlas.rgb[3 * at + channel] = static_cast<unsigned char>(std::lround(color[channel]));
   }
   this->Painted[at] = 1;
 }

@@ -106,11 +106,11 @@ TEST(ParallelForWithProgress, ProgressMovesWithTheWork)
                  [&](std::size_t i, const CancellationFlag& stop)
                  {
                    isFirstDone = true;
-                   while (i == 0)
+                   while (i == 0 && !stop)
                    {
-                     ThrowIfCancelled(stop);
                      std::this_thread::yield();
                    }
+                   ThrowIfCancelled(stop);
                  }),
     Aborted);
   EXPECT_DOUBLE_EQ(most, 0.9);

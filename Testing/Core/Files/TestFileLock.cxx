@@ -27,7 +27,7 @@ TEST(FileLock, MovesToAnother)
   FileLock first = FileLock::Try(folder.Path());
   FileLock second;
   second = std::move(first);
-  EXPECT_FALSE(first.IsHeld());
+  EXPECT_FALSE(first.IsHeld()); // NOLINT(bugprone-use-after-move): it is told to hold nothing then
   EXPECT_TRUE(second.IsHeld());
   EXPECT_FALSE(FileLock::Try(folder.Path()).IsHeld());
   second = FileLock();

@@ -99,7 +99,7 @@ void AddPoints(SparseModel& model, int count, double size)
   for (int i = 0; i < count; ++i)
   {
     SparsePoint point;
-    point.id = static_cast<std::uint64_t>(100 + i);
+    point.id = 100 + static_cast<std::uint64_t>(i);
     point.position = { coordinate(random), coordinate(random), coordinate(random) };
     for (SparseImage& image : model.images)
     {

@@ -42,7 +42,9 @@ TEST(ColmapVariants, ImagesWithoutLinesOfObservations)
     "4 1 0 0 0 0 0 0 1 b.jpg\n", "5 1 0 0 0 0 0 9 1 12 c.jpg\n" };
   for (const std::string between : { "", "# a comment\n", "\n", "\n\n# a comment\n" })
   {
-    folder.Write("images.txt", lines[0] + between + lines[1] + between + lines[2]);
+    std::string images = lines[0];
+    images.append(between).append(lines[1]).append(between).append(lines[2]);
+    folder.Write("images.txt", images);
     const SparseModel model = ReadColmapModel(folder.Path());
     ASSERT_EQ(model.images.size(), 3u) << "'" << between << "'";
     EXPECT_EQ(model.images[0].name, "a picture.jpg");

@@ -170,10 +170,11 @@ void Session::Watch(vtkObject* worker, const std::string& stage, const std::func
   const std::vector<std::string> words = DoWatched(worker, line, work);
   this->ThrowIfFailed(); // which tells better what libraries may have said, too
   line.Finish();
+  const std::string place = stage + ": ";
   for (const std::string& word : words)
   {
     const bool isOurs = word.rfind("freespace: ", 0) == 0;
-    isOurs ? this->Log(word) : this->TellWarning(stage + ": " + word);
+    isOurs ? this->Log(word) : this->TellWarning(place + word);
   }
   this->ThrowIfStrict();
 }
