@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Readers/SquaresScene.h"
 #include "Support/SharedData.h"
+#include "Support/Scenes/SquaresScene.h"
 #include "Support/TemporaryFolder.h"
 #include "vtkEdgeStereoReader.h"
-#include "vtkFeatureOverlayWriter.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -17,8 +16,6 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 #include <vtkVariant.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include <gtest/gtest.h>
 
@@ -276,52 +273,6 @@ TEST(EdgeStereoReader, DepthLimits)
   EXPECT_GT(Block(reader->GetOutput(), 0)->GetNumberOfPoints(), 800);
   reader->SetMaximumDepth(0.95); // nothing there
   EXPECT_NE(Complaint(reader).find("cluster0"), std::string::npos);
-}
-
-TEST(FeatureOverlayWriter, DrawsOnePicturePerView)
-{
-  const SquaresScene scene(2);
-  vtkNew<vtkEdgeStereoReader> reader;
-  reader->EveryImageOff(); // views of the references alone
-  reader->SetFileName(scene.File);
-  vtkNew<vtkFeatureOverlayWriter> writer;
-  writer->SetInputConnection(reader->GetOutputPort());
-  writer->SetImagesFolder(scene.Folder.Path("images"));
-  writer->SetOutputFolder(scene.Folder.Path("new/overlay"));
-  ASSERT_EQ(writer->Write(), 1);
-  for (const char* name : { "new/overlay/cluster0.png", "new/overlay/cluster1.png" })
-  {
-    const cv::Mat picture = cv::imread(scene.Folder.Path(name));
-    ASSERT_EQ(picture.cols, 240) << name;
-    ASSERT_EQ(picture.rows, 180) << name;
-    int bright = 0; // the picture itself is darkened to 0.4 of 220 at most
-    for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel)
-    {
-      bright += std::max({ (*pixel)[0], (*pixel)[1], (*pixel)[2] }) > 100;
-    }
-    EXPECT_GT(bright, 700) << name;
-    EXPECT_LT(bright, 6000) << name;
-  }
-}
-
-TEST(FeatureOverlayWriter, MissingPicture)
-{
-  const SquaresScene scene(1);
-  vtkNew<vtkEdgeStereoReader> reader;
-  reader->EveryImageOff(); // views of the references alone
-  reader->SetFileName(scene.File);
-  vtkNew<vtkFeatureOverlayWriter> writer;
-  writer->SetInputConnection(reader->GetOutputPort());
-  writer->SetImagesFolder(scene.Folder.Path("elsewhere"));
-  writer->SetOutputFolder(scene.Folder.Path("overlay"));
-  std::string text;
-  vtkNew<vtkCallbackCommand> keep;
-  keep->SetCallback(KeepText);
-  keep->SetClientData(&text);
-  writer->AddObserver(vtkCommand::ErrorEvent, keep);
-  EXPECT_EQ(writer->Write(), 0);
-  EXPECT_NE(text.find("c.png"), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(scene.Folder.Path("overlay/cluster0.png")));
 }
 
 // The blocks scene's figures that need no truth: where they fall, something is broken.

@@ -3,7 +3,7 @@
 #include "Common/Camera.h"
 #include "Data/SilhouetteBlocks.h"
 #include "Data/ViewBlocks.h"
-#include "Readers/SquaresScene.h"
+#include "Support/Scenes/SquaresScene.h"
 #include "vtkDelaunayDisparityFilter.h"
 #include "vtkEdgeStereoReader.h"
 #include "vtkFreespaceUnion.h"

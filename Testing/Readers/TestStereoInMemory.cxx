@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // vtkEdgeStereoReader of images that are connected, and not files.
 #include "Data/ViewBlocks.h"
-#include "Readers/SquaresScene.h"
+#include "Support/Scenes/SquaresScene.h"
 #include "Support/ErrorObserver.h"
 #include "vtkEdgeStereoReader.h"
 #include "vtkPhotographReader.h"

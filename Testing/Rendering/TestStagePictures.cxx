@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of what each stage makes of one scene, and numbers that say what a picture cannot: a block of 2 x 2 x 2 on
 // a board, seen by six cameras.
-#include "Support/BlockFeatures.h"
+#include "Support/Scenes/BlockFeatures.h"
 #include "Support/PictureComparison.h"
 #include "Support/PlainSettings.h"
 #include "Support/TemporaryFolder.h"

@@ -2,7 +2,7 @@
 #include "vtkViewDependentTextureMapper.h"
 
 #include "Support/ErrorObserver.h"
-#include "Support/BlockScene.h"
+#include "Support/Scenes/BlockScene.h"
 #include "Support/PictureComparison.h"
 #include "vtkSurfacePicture.h"
 

@@ -1,50 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
-// What is done for many pixels or tokens at once, held against one after the other, for widths that
-// no register divides.
-
-#include "Edges/ChainKernels.h"
-#include "Edges/LargeVector.h"
+// What is done for many pixels at once, held against one after the other.
 #include "Edges/ScanlineKernels.h"
+
+#include "Support/Core/RandomValues.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <random>
 #include <vector>
 
 using namespace freespace;
-
-namespace
-{
-
-class RandomValues
-{
-public:
-  explicit RandomValues(unsigned seed)
-    : Generator(seed)
-  {
-  }
-
-  template <typename T>
-  std::vector<T> Next(int count, double low, double high)
-  {
-    std::uniform_real_distribution<double> uniform(low, high);
-    std::vector<T> values(count);
-    std::generate(
-      values.begin(), values.end(), [&]() { return static_cast<T>(uniform(this->Generator)); });
-    return values;
-  }
-
-private:
-  std::mt19937 Generator;
-};
-
-const int Widths[] = { 3, 4, 7, 8, 9, 31, 32, 33, 100, 257 };
-
-}
 
 TEST(ScanlineKernels, SmoothAsTheSumOfWeightsForEveryRadius)
 {
@@ -133,51 +100,4 @@ TEST(ScanlineKernels, MeansOfNineAreRounded)
       EXPECT_EQ(means[i], (sums[i] + sums[i + 3] + sums[i + 6] + 4) / 9);
     }
   }
-}
-
-TEST(ChainKernels, OffsetsStayInTheImage)
-{
-  RandomValues random(9);
-  const ImageLayout image{ 40, 30, 120 };
-  for (int count : Widths)
-  {
-    const auto x = random.Next<double>(count, -3, 43), y = random.Next<double>(count, -3, 33),
-               angle = random.Next<double>(count, -3, 3);
-    const auto gx = random.Next<float>(count, 1, 2), gy = random.Next<float>(count, 1, 2);
-    std::vector<double> ax(count), ay(count), tx(count), ty(count);
-    for (int k = 0; k < count; ++k)
-    {
-      ax[k] = 3 * std::cos(angle[k]);
-      ay[k] = 3 * std::sin(angle[k]);
-    }
-    Directions(ax.data(), ay.data(), gx.data(), gy.data(), count, tx.data(), ty.data());
-    std::vector<int> offsets(count);
-    PixelOffsets(x.data(), y.data(), tx.data(), ty.data(), count, 2.5f, image, offsets.data());
-    for (int k = 0; k < count; ++k)
-    {
-      // The gradient lies to the right.
-      const bool ahead = ax[k] * gy[k] - ay[k] * gx[k] > 0;
-      const double length = ahead ? 3 : std::hypot(static_cast<double>(gx[k]), gy[k]);
-      EXPECT_NEAR(tx[k], (ahead ? ax[k] : gy[k]) / length, 1e-12);
-      EXPECT_NEAR(ty[k], (ahead ? ay[k] : -gx[k]) / length, 1e-12);
-      const int column = std::clamp(static_cast<int>(x[k] - 2.5 * ty[k]), 0, 39);
-      const int row = std::clamp(static_cast<int>(y[k] + 2.5 * tx[k]), 0, 29);
-      EXPECT_EQ(offsets[k], 120 * row + 3 * column);
-    }
-  }
-}
-
-TEST(LargeVector, HoldsWhatAVectorHolds)
-{
-  LargeVector<int> large;
-  std::vector<int> plain;
-  for (int k = 0; k < 1000000; ++k) // several megabytes, grown step by step
-  {
-    large.push_back(k);
-    plain.push_back(k);
-  }
-  EXPECT_TRUE(std::equal(large.begin(), large.end(), plain.begin(), plain.end()));
-  LargeVector<int> copy = large, moved = std::move(large);
-  EXPECT_EQ(copy, moved);
-  EXPECT_TRUE(LargeVector<double>().empty());
 }

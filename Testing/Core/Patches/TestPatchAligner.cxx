@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Patches/PatchAligner.h"
 
-#include "Common/Error.h"
 #include "Support/SyntheticImages.h"
 
 #include <opencv2/imgproc.hpp>
@@ -190,26 +189,4 @@ TEST(PatchAligner, NothingFarFromTheSurface)
   {
     EXPECT_FALSE(scene.Aligner().Align(FrontoParallel({ 120, 90 }, disparity)).isGood) << disparity;
   }
-}
-
-TEST(PatchOptions, Range)
-{
-  EXPECT_NO_THROW(PatchOptions().Check());
-  const auto fails = [](auto change)
-  {
-    PatchOptions options;
-    change(options);
-    EXPECT_THROW(options.Check(), Error);
-  };
-  fails([](PatchOptions& o) { o.radius = 1; });
-  fails([](PatchOptions& o) { o.radius = 8; });
-  fails([](PatchOptions& o) { o.spacing = 0; });
-  fails([](PatchOptions& o) { o.seedStep = 0; });
-  fails([](PatchOptions& o) { o.iterations = 0; });
-  fails([](PatchOptions& o) { o.leastPartners = 0; });
-  fails([](PatchOptions& o) { o.leastCorrelation = 1; });
-  fails([](PatchOptions& o) { o.leastContrast = 0; });
-  fails([](PatchOptions& o) { o.mostShift = std::nan(""); });
-  fails([](PatchOptions& o) { o.mostDeviation = -1; });
-  fails([](PatchOptions& o) { o.mostRoughness = std::numeric_limits<double>::infinity(); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Viewpoints/LookAt.h"
 #include "Viewpoints/NovelCameras.h"
+
+#include "Support/Core/PlaceAround.h"
 
 #include <gtest/gtest.h>
 
@@ -13,17 +14,6 @@ namespace
 {
 
 constexpr double degree = M_PI / 180;
-
-Camera PlaceAround(double azimuth, double elevation, double distance, const Eigen::Vector3d& middle)
-{
-  Camera like;
-  like.K << 800, 0, 320, 0, 800, 240, 0, 0, 1;
-  like.width = 640;
-  like.height = 480;
-  const Eigen::Vector3d from(std::cos(azimuth) * std::cos(elevation),
-    std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
-  return LookAt(like, middle + distance * from, middle, Eigen::Vector3d::UnitZ());
-}
 
 double AngleBetween(const Camera& a, const Camera& b)
 {
@@ -49,18 +39,6 @@ View Seeing(const Camera& camera, const Eigen::Vector3d& middle)
   return view;
 }
 
-}
-
-TEST(LookAt, PutsTheMiddleInTheMiddleAndKeepsTheHorizon)
-{
-  const Eigen::Vector3d middle(1, 2, 3);
-  const Camera camera = PlaceAround(0.7, 0.4, 5, middle);
-  EXPECT_TRUE(camera.Project(middle).isApprox(Eigen::Vector2d(320, 240), 1e-12));
-  EXPECT_NEAR(camera.Depth(middle), 5, 1e-12);
-  EXPECT_NEAR((camera.R * camera.R.transpose() - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
-  EXPECT_NEAR(camera.R.determinant(), 1, 1e-12);
-  EXPECT_NEAR(camera.R(0, 2), 0, 1e-12) << "right is level";
-  EXPECT_LT(camera.Project(middle + Eigen::Vector3d::UnitZ() * 0.1).y(), 240) << "up is up";
 }
 
 TEST(NovelCameras, AreBesideTheCamerasOfARingAndHoldAllFeatures)

@@ -2,7 +2,7 @@
 #ifndef BlockFeatures_h
 #define BlockFeatures_h
 
-#include "Support/BlockScene.h"
+#include "Support/Scenes/BlockScene.h"
 
 #include <algorithm>
 #include <string>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Help/CommandText.h"
+
 #include "Help/HelpFormatter.h"
-#include "Help/ManPage.h"
-#include "Help/Suggestion.h"
 
 #include <gtest/gtest.h>
 
@@ -47,24 +46,6 @@ TEST(Wrapped, DoesNotBreakALongWord)
   EXPECT_EQ(Wrapped("", 4, 4), "");
 }
 
-TEST(ClosestWord, IsTheOneThatWasMeant)
-{
-  const std::vector<std::string> known = { "--cells", "--region", "--no-fit", "-o", "--output" };
-  EXPECT_EQ(ClosestWord("--cels", known), "--cells");
-  EXPECT_EQ(ClosestWord("--clels", known), "--cells");
-  EXPECT_EQ(ClosestWord("-region", known), "--region");
-  EXPECT_EQ(ClosestWord("--nofit", known), "--no-fit");
-  EXPECT_EQ(ClosestWord("--ouptut", known), "--output");
-}
-
-TEST(ClosestWord, IsNoneWhereNothingIsNear)
-{
-  EXPECT_EQ(ClosestWord("--colour", { "--cells", "--region", "-o" }), "");
-  EXPECT_EQ(ClosestWord("", { "--cells", "-o" }), "");
-  EXPECT_EQ(ClosestWord("x", { "-o" }), ""); // a letter for a letter is no likeness
-  EXPECT_EQ(ClosestWord("--cells", {}), "");
-}
-
 namespace
 {
 
@@ -97,13 +78,4 @@ TEST(CommandText, TellsLimitsDefaultsAndExclusions)
   const std::string help = HelpText(text);
   EXPECT_NE(help.find("Number of cells (1 to 9; default 5; not with --other)"), std::string::npos);
   EXPECT_EQ(help.find("hidden"), std::string::npos);
-}
-
-TEST(ManPage, EscapesWhatRoffWouldRead)
-{
-  CommandText text;
-  text.name = "program";
-  text.description = ".a \\ b-c";
-  const std::string page = ManPage(text, "1.0");
-  EXPECT_NE(page.find("\\&.a \\e b\\-c"), std::string::npos);
 }
