@@ -46,7 +46,7 @@ vtkSmartPointer<vtkImageData> ImageDataOf(const std::vector<float>& depths)
     for (int column = 0; column < width; ++column)
     {
       image->SetScalarComponentFromFloat(
-        column, height - 1 - row, 0, 0, depths[static_cast<std::size_t>(row * width + column)]);
+        column, height - 1 - row, 0, 0, depths[static_cast<std::size_t>(row) * width + column]);
     }
   }
   return image;
