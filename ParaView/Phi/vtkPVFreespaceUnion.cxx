@@ -21,7 +21,7 @@ vtkMTimeType vtkPVFreespaceUnion::GetMTime()
   {
     return time;
   }
-  if (time > this->vtkObject::GetMTime())
+  if (time > this->MTime.GetMTime()) // of this object alone
   {
     this->Modified();
   }

@@ -77,7 +77,7 @@ vtkSmartPointer<vtkDataArray> MakeArray(
   }
   const auto usual = isInt ? vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkIntArray>::New())
                            : vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkDoubleArray>::New());
-  const auto array = NewArray(change - 2, usual);
+  auto array = NewArray(change - 2, usual);
   const auto size = static_cast<vtkIdType>(values.size());
   array->SetName(name);
   // One wide tuple, single numbers, one tuple less, or as it should be.

@@ -14,7 +14,8 @@ namespace
 
 AlignedBox3d RandomBox()
 {
-  AlignedBox3d box(Vector3d(Vector3d::Random()));
+  const Vector3d corner = Vector3d::Random();
+  AlignedBox3d box(corner);
   return box.extend(Vector3d(Vector3d::Random()));
 }
 
