@@ -3,12 +3,11 @@
 
 #include "Common/Error.h"
 #include "Common/Median.h"
+#include "Refinement/EdgeDistance.h"
 
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace freespace
@@ -16,58 +15,6 @@ namespace freespace
 
 namespace
 {
-
-// The motion of a camera from its given pose: a rotation about its own centre (angle-axis, radians) and
-// a translation in its own frame, in depths of the scene, so that all parameters have a similar scale.
-using Motion = std::array<double, 6>;
-
-// The world point in the frame of a camera that has moved.
-template <typename T>
-Eigen::Matrix<T, 3, 1> Moved(
-  const Camera& given, double depth, const T* motion, const Eigen::Matrix<T, 3, 1>& world)
-{
-  const Eigen::Matrix<T, 3, 1> before = given.R.cast<T>() * world + given.t.cast<T>();
-  Eigen::Matrix<T, 3, 1> after;
-  ceres::AngleAxisRotatePoint(motion, before.data(), after.data());
-  return after + T(depth) * Eigen::Map<const Eigen::Matrix<T, 3, 1>>(motion + 3);
-}
-
-// Its pixel. The focal lengths are those given times exp(logFocal).
-template <typename T>
-Eigen::Matrix<T, 2, 1> Pixel(
-  const Camera& given, const T& logFocal, const Eigen::Matrix<T, 3, 1>& inCamera)
-{
-  const Eigen::Matrix<T, 2, 1> image = exp(logFocal) * inCamera.template head<2>() / inCamera.z();
-  const Eigen::Matrix2d& K = given.K.topLeftCorner<2, 2>();
-  return K.cast<T>() * image + given.K.topRightCorner<2, 1>().cast<T>();
-}
-
-// The distance of a point's projection from its edge, in deviations. Along the edge it is constrained by
-// the reference only.
-struct EdgeDistance
-{
-  template <typename T>
-  bool operator()(const T* motion, const T* logFocal, const T* point, T* residual) const
-  {
-    const Eigen::Matrix<T, 3, 1> world = Eigen::Map<const Eigen::Matrix<T, 3, 1>>(point);
-    const Eigen::Matrix<T, 3, 1> inCamera = Moved(*this->given, this->depth, motion, world);
-    if (!(inCamera.z() > T(0)))
-    {
-      return false;
-    }
-    const Eigen::Matrix<T, 2, 1> off =
-      Pixel(*this->given, *logFocal, inCamera) - this->observation.position.template cast<T>();
-    const Eigen::Vector2d& normal = this->observation.normal;
-    residual[0] = (normal.x() * off.x() + normal.y() * off.y()) * this->weight;
-    residual[1] = (normal.x() * off.y() - normal.y() * off.x()) * this->weightAlong;
-    return true;
-  }
-
-  const Camera* given;
-  double depth;
-  EdgeObservation observation;
-  double weight, weightAlong;
-};
 
 // The motion of a camera, in deviations.
 struct MotionSize
@@ -102,7 +49,7 @@ bool IsConfirmed(const EdgeTrack& track)
   return track.observations.size() >= 3;
 }
 
-class Adjustment
+class Adjustment : ceres::EvaluationCallback
 {
 public:
   Adjustment(const std::vector<Camera>& given, std::vector<Camera>& cameras,
@@ -113,12 +60,16 @@ public:
     , LensOf(lensOf)
     , Tracks(tracks)
     , Options(options)
-    , Motions(cameras.size(), Motion{})
+    , Motions(cameras.size(), CameraMotion{})
     , IsObserved(cameras.size(), 0)
     , LogFocals(lensOf.empty() ? 0 : *std::max_element(lensOf.begin(), lensOf.end()) + 1, 0.0)
   {
     this->FindDepths();
     this->FindMotions();
+    for (std::size_t i = 0; i < given.size(); ++i)
+    {
+      this->Moving.emplace_back(given[i], this->Depths[i]);
+    }
   }
 
   BundleAdjustmentSummary Run()
@@ -175,12 +126,21 @@ private:
     }
   }
 
+  void PrepareForEvaluation(bool, bool) override
+  {
+    for (std::size_t i = 0; i < this->Moving.size(); ++i)
+    {
+      this->Moving[i].Move(this->Motions[i], this->LogFocals[this->LensOf[i]]);
+    }
+  }
+
   // Least squares over the points, and the cameras where these move. `deviation`: of the position of
   // a strong edge, pixels.
   void Solve(double deviation, bool moveCameras, int iterations)
   {
     ceres::Problem::Options ownership;
     ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.evaluation_callback = this;
     ceres::CauchyLoss loss(2.0); // deviations
     ceres::Problem problem(ownership);
     auto* ordering = new ceres::ParameterBlockOrdering;
@@ -217,7 +177,6 @@ private:
   void AddTracks(ceres::Problem& problem, ceres::LossFunction& loss, double deviation,
     ceres::ParameterBlockOrdering& ordering)
   {
-    using Cost = ceres::AutoDiffCostFunction<EdgeDistance, 2, 6, 1, 3>;
     for (EdgeTrack& track : this->Tracks)
     {
       if (!IsConfirmed(track))
@@ -231,8 +190,8 @@ private:
         const std::size_t camera = observation.image;
         this->IsObserved[camera] = 1;
         problem.AddResidualBlock(
-          new Cost(new EdgeDistance{ &this->Given[camera], this->Depths[camera], observation,
-            1 / (deviation * observation.uncertainty), isReference ? 1.0 : 0.0 }),
+          new EdgeDistance(this->Moving[camera], observation,
+            1 / (deviation * observation.uncertainty), isReference ? 1.0 : 0.0),
           &loss, this->Motions[camera].data(), &this->LogFocals[this->LensOf[camera]],
           track.point.data());
       }
@@ -267,8 +226,9 @@ private:
   }
 
   // Of the points' images from the edges, pixels.
-  std::vector<double> Distances() const
+  std::vector<double> Distances()
   {
+    this->PrepareForEvaluation(false, true);
     std::vector<double> distances;
     for (const EdgeTrack& track : this->Tracks)
     {
@@ -276,13 +236,11 @@ private:
       {
         if (IsConfirmed(track))
         {
-          const std::size_t camera = observation.image;
-          const EdgeDistance distance{ &this->Given[camera], this->Depths[camera], observation, 1,
-            0 };
-          double off[2] = { 0, 0 };
-          distance(this->Motions[camera].data(), &this->LogFocals[this->LensOf[camera]],
-            track.point.data(), off);
-          distances.push_back(std::abs(off[0]));
+          const MovingCamera& camera = this->Moving[observation.image];
+          const Eigen::Vector3d inCamera = camera.InCamera(track.point);
+          distances.push_back(inCamera.z() > 0
+              ? std::abs(observation.normal.dot(camera.Pixel(inCamera) - observation.position))
+              : 0.0);
         }
       }
     }
@@ -343,10 +301,11 @@ private:
   const std::vector<int>& LensOf;
   std::vector<EdgeTrack>& Tracks;
   const BundleAdjustmentOptions& Options;
-  std::vector<Motion> Motions;   // per camera, from the given one
-  std::vector<char> IsObserved;  // per camera
-  std::vector<double> Depths;    // of the scene, per camera
-  std::vector<double> LogFocals; // per lens
+  std::vector<CameraMotion> Motions; // per camera, from the given one
+  std::vector<MovingCamera> Moving;  // where the motions bring the cameras
+  std::vector<char> IsObserved;      // per camera
+  std::vector<double> Depths;        // of the scene, per camera
+  std::vector<double> LogFocals;     // per lens
 };
 
 }
