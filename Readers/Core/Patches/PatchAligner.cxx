@@ -215,7 +215,8 @@ AlignedPatch PatchAligner::Align(const PatchPlane& initial) const
   PatchPlane& plane = result.plane = initial;
   Window window;
   const double parallax = this->Parallax(initial);
-  if (!(parallax > 0) || !this->Read(initial.pixel, window))
+  result.isTextured = this->Read(initial.pixel, window);
+  if (!(parallax > 0) || !result.isTextured)
   {
     return result;
   }

@@ -31,7 +31,8 @@ struct PatchPlane
 /// The result of an alignment.
 struct AlignedPatch
 {
-  bool isGood = false; ///< it correlates, and its deviation is small enough
+  bool isTextured = false; ///< the window lies in the image and has contrast in its middle
+  bool isGood = false;     ///< it correlates, and its deviation is small enough
   PatchPlane plane;
   double deviation = 0;   ///< standard deviation of the disparity at the pixel
   double correlation = 0; ///< mean over the partners that correlate well; at most 1

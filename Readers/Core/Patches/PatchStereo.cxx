@@ -69,7 +69,7 @@ public:
   AlignedPatch Align(const PatchPlane& initial) const
   {
     AlignedPatch fine = this->Fine.Align(initial);
-    if (fine.isGood)
+    if (fine.isGood || !fine.isTextured)
     {
       return fine;
     }
