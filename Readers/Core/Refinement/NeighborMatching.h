@@ -15,7 +15,7 @@ struct NeighborMatchingOptions
   double tolerance =
     1.5; ///< of a third image's confirmation, pixels: as far as the given cameras may be off; > 0
   std::size_t tokensPerImage = 12000; ///< edge tokens that are matched, about; > 0
-  std::size_t tracksPerImage = 400;   ///< that are kept of the matches; > 0
+  std::size_t tracksPerImage = 250;   ///< that are kept of the matches; > 0
 
   /// Throws Error when a field is out of its range.
   void Check() const;
