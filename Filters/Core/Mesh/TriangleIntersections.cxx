@@ -37,6 +37,7 @@ public:
   Pairs Run(const std::vector<std::size_t>& suspects, const MayMeet& mayMeet,
     const ParallelFor& parallelFor)
   {
+    this->FindBoxes(parallelFor);
     Pairs pairs = this->FindCandidates(suspects, mayMeet, parallelFor);
     std::vector<char> meet(pairs.size());
     parallelFor(pairs.size(),
@@ -70,6 +71,23 @@ private:
     return Kernel::Point_3(p.x(), p.y(), p.z());
   }
 
+  void FindBoxes(const ParallelFor& parallelFor)
+  {
+    this->Boxes.resize(this->Mesh.count);
+    parallelFor(this->Mesh.count,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t t = begin; t < end; ++t)
+        {
+          this->Boxes[t].setEmpty();
+          for (const std::int32_t corner : this->CornersOf(t))
+          {
+            this->Boxes[t].extend(this->Mesh.position(corner));
+          }
+        }
+      });
+  }
+
   // Pairs whose boxes intersect, in ascending order; each suspect with itself.
   Pairs FindCandidates(const std::vector<std::size_t>& suspects, const MayMeet& mayMeet,
     const ParallelFor& parallelFor)
@@ -83,10 +101,10 @@ private:
     for (const std::size_t suspect : suspects)
     {
       isSuspect[suspect] = 1;
-      low = low.cwiseMin(this->BoxOf(suspect).min());
+      low = low.cwiseMin(this->Boxes[suspect].min());
     }
     const BoxGrid grid(suspects.size(), low, this->GridCell,
-      [&](std::size_t i) { return this->BoxOf(suspects[i]); });
+      [&](std::size_t i) { return this->Boxes[suspects[i]]; });
     constexpr std::size_t together = 4096;
     std::vector<Pairs> found((this->Mesh.count + together - 1) / together);
     parallelFor(found.size(),
@@ -115,7 +133,7 @@ private:
   void AddPairs(std::size_t t, const std::vector<std::size_t>& suspects, bool isSuspect,
     const BoxGrid& grid, const MayMeet& mayMeet, Pairs& pairs) const
   {
-    const Eigen::AlignedBox3d box = this->BoxOf(t);
+    const Eigen::AlignedBox3d& box = this->Boxes[t];
     grid.ForEachNear(box,
       [&](std::int32_t item, const BoxGrid::Cell& cell)
       {
@@ -124,7 +142,7 @@ private:
         {
           return;
         }
-        const Eigen::AlignedBox3d other = this->BoxOf(suspect);
+        const Eigen::AlignedBox3d& other = this->Boxes[suspect];
         // In one of the cells that they share.
         if (box.intersects(other) && grid.CellOf(box.min().cwiseMax(other.min())) == cell &&
           mayMeet(suspect, t))
@@ -132,16 +150,6 @@ private:
           pairs.emplace_back(std::minmax(suspect, t));
         }
       });
-  }
-
-  Eigen::AlignedBox3d BoxOf(std::size_t t) const
-  {
-    Eigen::AlignedBox3d box;
-    for (const std::int32_t corner : this->CornersOf(t))
-    {
-      box.extend(this->Mesh.position(corner));
-    }
-    return box;
   }
 
   bool Meet(std::size_t first, std::size_t second) const
@@ -186,6 +194,7 @@ private:
 
   const TriangleSoup& Mesh;
   const double GridCell;
+  std::vector<Eigen::AlignedBox3d> Boxes;
 };
 
 }
