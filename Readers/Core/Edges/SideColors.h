@@ -3,7 +3,7 @@
 #define freespace_SideColors_h
 
 #include "Edges/EdgeTokens.h"
-#include "Edges/VectorClones.h"
+#include "Common/VectorClones.h"
 
 #include <cstdlib>
 

@@ -49,9 +49,8 @@ void MovingCamera::Move(const CameraMotion& motion, double logFocal)
 {
   const Vector3d turn(motion[0], motion[1], motion[2]);
   const double angle = turn.norm();
-  const Matrix3d R = angle > 0
-    ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
-    : Matrix3d(Matrix3d::Identity());
+  const Matrix3d R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
+                               : Matrix3d(Matrix3d::Identity());
   this->FromWorld = R * this->Given.R;
   this->Step = this->Depth * Vector3d(motion[3], motion[4], motion[5]);
   this->Translation = R * this->Given.t + this->Step;
@@ -75,8 +74,8 @@ MovingCamera::Derivatives MovingCamera::PixelDerivatives(const Vector3d& inCamer
   return result;
 }
 
-EdgeDistance::EdgeDistance(const MovingCamera& camera, const EdgeObservation& observation,
-  double weight, double weightAlong)
+EdgeDistance::EdgeDistance(
+  const MovingCamera& camera, const EdgeObservation& observation, double weight, double weightAlong)
   : Moving(camera)
   , Observation(observation)
 {
@@ -88,8 +87,7 @@ EdgeDistance::EdgeDistance(const MovingCamera& camera, const EdgeObservation& ob
 bool EdgeDistance::Evaluate(
   double const* const* parameters, double* residuals, double** jacobians) const
 {
-  const Vector3d inCamera =
-    this->Moving.InCamera(Eigen::Map<const Vector3d>(parameters[2]));
+  const Vector3d inCamera = this->Moving.InCamera(Eigen::Map<const Vector3d>(parameters[2]));
   if (!(inCamera.z() > 0))
   {
     return false;

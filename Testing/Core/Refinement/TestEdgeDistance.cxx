@@ -76,8 +76,8 @@ TEST(EdgeDistance, IsThatOfTheMovedCamerasPixel)
     const Eigen::Map<const Eigen::Vector3d> turn(scene.Motion.data());
     const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
     moved.R = R * scene.Given.R;
-    moved.t = R * scene.Given.t +
-      scene.Depth * Eigen::Map<const Eigen::Vector3d>(scene.Motion.data() + 3);
+    moved.t =
+      R * scene.Given.t + scene.Depth * Eigen::Map<const Eigen::Vector3d>(scene.Motion.data() + 3);
     moved.K.topLeftCorner<2, 2>() *= std::exp(scene.LogFocal);
     const Eigen::Vector2d off = moved.Project(scene.Point) - scene.Edge.position;
     const Eigen::Vector2d residuals = scene.Residuals(Eigen::Matrix<double, 10, 1>::Zero());
@@ -96,8 +96,7 @@ TEST(EdgeDistance, DerivativesAreTheLimitsOfDifferences)
     {
       MovedScene scene(seed, turn);
       const Eigen::Matrix3d back =
-        Eigen::AngleAxisd(
-          turn, Eigen::Map<const Eigen::Vector3d>(scene.Motion.data()).normalized())
+        Eigen::AngleAxisd(turn, Eigen::Map<const Eigen::Vector3d>(scene.Motion.data()).normalized())
           .toRotationMatrix()
           .transpose();
       scene.Point =
