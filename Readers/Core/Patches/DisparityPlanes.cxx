@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace freespace
 {
@@ -29,17 +30,32 @@ constexpr int WindowStep = 2;
 // Of a window, the least part that must have a disparity.
 constexpr double LeastPart = 0.9;
 
-bool IsInside(const Vector2d (&corners)[3], double area, const Vector2d& pixel)
+// The columns whose pixels' centres in a row lie in a triangle of the given orientation, from the first one to the one
+// after the last.
+std::pair<int, int> ColumnsInside(
+  const Vector2d (&corners)[3], double area, int row, const std::pair<int, int>& within)
 {
+  double first = within.first + 0.5, last = within.second - 0.5;
   for (int k = 0; k < 3; ++k)
   {
-    const Vector2d side = corners[(k + 1) % 3] - corners[k], to = pixel - corners[k];
-    if ((side.x() * to.y() - side.y() * to.x()) * area < 0)
+    const Vector2d side = corners[(k + 1) % 3] - corners[k];
+    const double down = row + 0.5 - corners[k].y();
+    // Inside is where side.x * down - side.y * (x - corner.x) has the sign of the area.
+    const double slope = side.y() * area, level = side.x() * down * area;
+    if (slope < 0)
     {
-      return false;
+      first = std::max(first, corners[k].x() + level / slope);
+    }
+    else if (slope > 0)
+    {
+      last = std::min(last, corners[k].x() + level / slope);
+    }
+    else if (level < 0)
+    {
+      return { 0, 0 };
     }
   }
-  return true;
+  return { static_cast<int>(std::ceil(first - 0.5)), static_cast<int>(std::floor(last - 0.5)) + 1 };
 }
 
 }
@@ -87,15 +103,14 @@ void DisparityPlanes::Paint(const View& view, const std::array<int, 3>& corners)
   { return std::max(0, static_cast<int>(std::ceil(from - 0.5))); };
   const auto last = [](double to, int size)
   { return std::min(size - 1, static_cast<int>(std::floor(to - 0.5))); };
+  const std::pair<int, int> within(first(left), last(right, this->Disparity.cols) + 1);
   for (int row = first(top); row <= last(bottom, this->Disparity.rows); ++row)
   {
-    for (int column = first(left); column <= last(right, this->Disparity.cols); ++column)
+    const auto [begin, end] = ColumnsInside(at, area, row, within);
+    for (int column = begin; column < end; ++column)
     {
       const Vector2d pixel(column + 0.5, row + 0.5);
-      if (IsInside(at, area, pixel))
-      {
-        this->Disparity(row, column) = static_cast<float>(disparity[0] + slope.dot(pixel - at[0]));
-      }
+      this->Disparity(row, column) = static_cast<float>(disparity[0] + slope.dot(pixel - at[0]));
     }
   }
 }
