@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Data/PointNormals.h"
 
+#include "Execution/Sequentially.h"
+
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -19,7 +21,7 @@ void ComputePointNormals(vtkPolyData* surface)
   filter->SetInputData(triangles);
   filter->SplittingOff();
   filter->ConsistencyOff(); // it is
-  filter->Update();
+  Sequentially([&] { filter->Update(); });
   if (vtkDataArray* normals = filter->GetOutput()->GetPointData()->GetNormals())
   {
     normals->SetName("Normals");

@@ -6,18 +6,24 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
+#include <vtkVersionMacros.h>
 
 namespace freespace
 {
 
-/// A core Progress that reports to a VTK algorithm and stops when its AbortExecute is set.
+/// A core Progress that reports to a VTK algorithm and stops when its AbortExecute is set. VTK 9.3 tells the end of what
+/// was stopped as progress, unless the output is said to be aborted.
 inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
 {
   return Progress(
     [algorithm](double fraction)
     {
       algorithm->UpdateProgress(fraction);
-      return algorithm->GetAbortExecute() == 0;
+      const bool isStopped = algorithm->GetAbortExecute() != 0;
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
+      algorithm->SetAbortOutput(isStopped);
+#endif
+      return !isStopped;
     });
 }
 

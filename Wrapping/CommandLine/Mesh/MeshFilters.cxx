@@ -2,6 +2,7 @@
 #include "Mesh/MeshFilters.h"
 
 #include "Common/Error.h"
+#include "Execution/Sequentially.h"
 #include "Mesh/MeshValues.h"
 #include "Session/NumberValidators.h"
 #include "Session/Session.h"
@@ -52,6 +53,14 @@ Surface Run(
   filter->SetInputDataObject(surface);
   session.Run(filter, stage);
   return filter->GetOutput();
+}
+
+Surface RunSequentially(
+  Session& session, vtkPolyDataAlgorithm* filter, const std::string& stage, vtkPolyData* surface)
+{
+  Surface result;
+  freespace::Sequentially([&] { result = Run(session, filter, stage, surface); });
+  return result;
 }
 
 double NumberOf(const std::string& text)
@@ -190,7 +199,7 @@ Surface Smooth(Session& session, const std::string& length, vtkPolyData* surface
   filter->NormalizeCoordinatesOn();
   filter->FeatureEdgeSmoothingOn(); // of 45 degrees: their vertices move along them
   filter->BoundarySmoothingOff();
-  Surface smooth = Run(session, filter, "smooth", surface);
+  Surface smooth = RunSequentially(session, filter, "smooth", surface);
   LimitMoves(surface, smooth, NumberOf(length));
   return smooth;
 }
@@ -224,7 +233,7 @@ Surface Fill(Session& session, const std::string& size, vtkPolyData* surface)
   orient->ConsistencyOn();
   orient->ComputePointNormalsOff();
   orient->ComputeCellNormalsOn(); // without any normals the filter does nothing
-  Surface oriented = Run(session, orient, "fill", filled);
+  Surface oriented = RunSequentially(session, orient, "fill", filled);
   oriented->GetCellData()->RemoveArray("Normals");
   return oriented;
 }
@@ -255,7 +264,7 @@ Surface AddNormals(Session& session, const std::string&, vtkPolyData* surface)
   vtkNew<vtkPolyDataNormals> filter;
   filter->SplittingOff();
   filter->ConsistencyOn();
-  return Run(session, filter, "normals", surface);
+  return RunSequentially(session, filter, "normals", surface);
 }
 
 Surface ColorFromScene(Session& session, const std::string& scene, vtkPolyData* surface)
