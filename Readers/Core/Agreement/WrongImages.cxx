@@ -96,7 +96,8 @@ public:
           MeasuredCluster measured{ AgreementOf(matches), {} };
           if (this->Tracks)
           {
-            measured.tracks = TracksOfCluster(matches, this->Options.matching.tracksPerImage);
+            measured.tracks =
+              TracksOfCluster(matches, this->Options.matching.TracksOfEach(this->Images.size()));
           }
           return measured;
         });

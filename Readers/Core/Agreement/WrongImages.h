@@ -31,7 +31,7 @@ struct WrongImageOptions
 /// order: images that are upside down or under another's name, and wrong cameras. The edges of each
 /// image are matched with those of its neighbours. The same result for any number of threads.
 ///
-/// tracks: those of the clusters that were matched, `tracksPerImage` of each, for RefineCameras, which matches
+/// tracks: those of the clusters that were matched, `TracksOfEach` of each, for RefineCameras, which matches
 /// the same clusters in the same way at first; the images' indices are those of this model. Null: not wanted.
 ///
 /// Throws Error as MatchCluster does, and Aborted when the progress says so.

@@ -49,7 +49,7 @@ std::vector<EdgeTrack> MatchAll(EdgeStore& edges, const std::vector<CalibratedIm
     {
       const ClusterMatches matches =
         MatchCluster(edges, images, *unknown[i], matching, options.matching.tokensPerImage, stop);
-      return TracksOfCluster(matches, options.matching.tracksPerImage);
+      return TracksOfCluster(matches, options.matching.TracksOfEach(images.size()));
     });
   auto next = matched.begin();
   std::vector<EdgeTrack> tracks;

@@ -96,8 +96,8 @@ void NormalMixer::Mix(const Normals& normals, const Normals& guides, double devi
   {
     coordinate.resize(this->Areas.size(), 0);
   }
-  const MixArrays arrays{ normals[0].data(), normals[1].data(), normals[2].data(),
-    guides[0].data(), guides[1].data(), guides[2].data(), this->Areas.data(),
+  const MixArrays arrays{ normals[0].data(), normals[1].data(), normals[2].data(), guides[0].data(),
+    guides[1].data(), guides[2].data(), this->Areas.data(),
     { this->Beside[0].data(), this->Beside[1].data(), this->Beside[2].data() },
     static_cast<float>(1 / (6 * deviation * deviation)), mixed[0].data(), mixed[1].data(),
     mixed[2].data() };
