@@ -3,7 +3,7 @@
 
 #include "Execution/AlgorithmErrors.h"
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Data/ObservedTriangles.h"
 #include "Data/SurfaceMesh.h"
 #include "Data/SurfaceViewpoint.h"

@@ -4,7 +4,7 @@
 #include "Files/AtomicOutput.h"
 #include "Files/GlobalShift.h"
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Common/ParallelForWithProgress.h"
 #include "Data/Boxes.h"
 #include "Data/ViewBlocks.h"

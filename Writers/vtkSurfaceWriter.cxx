@@ -4,7 +4,7 @@
 #include "Files/AtomicOutput.h"
 #include "Files/GlobalShift.h"
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Data/Boxes.h"
 #include "Data/SurfaceMesh.h"
 #include "Data/SurfaceViewpoint.h"

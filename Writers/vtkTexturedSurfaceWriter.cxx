@@ -4,7 +4,7 @@
 #include "BinaryGLTF.h"
 #include "Files/AtomicOutput.h"
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Data/PngBytes.h"
 #include "PlyWriter.h"
 #include "RunWriter.h"

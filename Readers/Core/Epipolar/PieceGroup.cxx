@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Epipolar/PieceGroup.h"
 
-#include "Edges/VectorClones.h"
+#include "Common/VectorClones.h"
 
 #include <cmath>
 

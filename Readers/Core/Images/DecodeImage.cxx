@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Images/DecodeImage.h"
 
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Images/ImageCodecs.h"
 #include "Text/WholeFile.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ModelFiles/ForeignModel.h"
 
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Text/TextSource.h"
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include "ModelFiles/ReadSparseModel.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Files/PathChecks.h"
 #include "ModelFiles/AliceVisionModel.h"
 #include "ModelFiles/BundlerModel.h"

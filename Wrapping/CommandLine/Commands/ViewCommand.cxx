@@ -2,7 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Data/ViewBlocks.h"
 #include "Files/FileNames.h"
 #include "Files/PathChecks.h"

@@ -2,7 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Data/SilhouetteBlocks.h"
 #include "Export/FeatureExport.h"
 #include "Output/SurfaceFiles.h"

@@ -2,7 +2,7 @@
 #include "Info/FileInfo.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Files/PathChecks.h"
 #include "Images/ImageSize.h"
 #include "Output/SurfaceFiles.h"

@@ -2,7 +2,7 @@
 #include "Output/Animation.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Session/Session.h"
 
 #include <vtkImageData.h>

@@ -2,7 +2,7 @@
 #include "Output/ViewFiles.h"
 
 #include "Common/Error.h"
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Output/SurfaceFiles.h"
 #include "Session/Session.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Stages/ContourStage.h"
 
-#include "Common/FileExtension.h"
+#include "Files/FileExtension.h"
 #include "Common/ParseNumber.h"
 #include "Data/PointNormals.h"
 #include "Data/SurfaceViewpoint.h"
