@@ -11,8 +11,8 @@
 namespace freespace
 {
 
-/// A core Progress that reports to a VTK algorithm and stops when its AbortExecute is set. VTK 9.3 tells the end of what
-/// was stopped as progress, unless the output is said to be aborted.
+/// A core Progress that reports to a VTK algorithm and stops when its AbortExecute is set. From VTK 9.3 on the algorithms
+/// downstream are told then, as by VTK's own.
 inline Progress AlgorithmProgress(vtkAlgorithm* algorithm)
 {
   return Progress(

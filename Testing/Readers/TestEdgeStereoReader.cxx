@@ -218,14 +218,14 @@ TEST(EdgeStereoReader, ProgressMovesWhileImagesAreMatched)
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.back(), 1.0);
 
-  // At the second event the matching has begun.
+  // At the second event the matching has begun. The last one is the pipeline's own, with VTK 9.3 after an abort, too.
   int events = 0;
   vtkNew<vtkCallbackCommand> abort;
   abort->SetClientData(&events);
   abort->SetCallback(
-    [](vtkObject* caller, unsigned long, void* count, void*)
+    [](vtkObject* caller, unsigned long, void* count, void* fraction)
     {
-      if (++*static_cast<int*>(count) == 2)
+      if (*static_cast<double*>(fraction) < 1 && ++*static_cast<int*>(count) == 2)
       {
         static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
       }

@@ -69,9 +69,10 @@ public:
   int After = 0;
 
 private:
-  void See(vtkObject* caller, unsigned long, void*)
+  void See(vtkObject* caller, unsigned long, void* fraction)
   {
-    this->After += this->HasStopped;
+    // The last event is the pipeline's own, with VTK 9.3 after an abort, too.
+    this->After += this->HasStopped && *static_cast<double*>(fraction) < 1;
     if (this->Phi->IsBuilt() != this->IsInBuilding && this->Left-- == 1)
     {
       this->HasStopped = true;

@@ -210,8 +210,9 @@ struct Watcher
   {
     auto* writer = vtkAlgorithm::SafeDownCast(caller);
     auto* self = static_cast<Watcher*>(data);
-    self->after += writer->GetAbortExecute() != 0;
     self->seen.push_back(*static_cast<double*>(fraction));
+    // The last event is the pipeline's own, with VTK 9.3 after an abort, too.
+    self->after += writer->GetAbortExecute() != 0 && self->seen.back() < 1;
     if (self->seen.back() >= self->stopAt)
     {
       writer->SetAbortExecute(1);

@@ -175,7 +175,7 @@ TEST(BoardDetection, TheLayoutIsThatOfMoreMarkers)
       DetectLayouts(BoardRendering(board, isFormer).Render(camera), board);
     const int right = isFormer ? found.formerMarkers : found.markers;
     const int wrong = isFormer ? found.markers : found.formerMarkers;
-    EXPECT_GT(right, 20) << "of 24";
+    EXPECT_GE(right, 20) << "of 24; OpenCV 4.10 finds 20, 4.6 more";
     EXPECT_LE(wrong, 12) << "every second row is the same in both";
     const BoardCorners& corners = isFormer ? found.formerCorners : found.corners;
     EXPECT_GT(corners.ids.size(), 25u) << "of 35";
