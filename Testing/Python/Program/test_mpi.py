@@ -190,7 +190,9 @@ class TestMpi(unittest.TestCase):
         process.send_signal(signal.SIGTERM)
         words = process.communicate(timeout=60)[1]
         self.assertNotEqual(process.returncode, 0)
-        self.assertEqual(words.count('Stopped on request.'), 1, words)
+        # From Open MPI 5 on mpiexec drops what processes say while it ends them.
+        told = (1,) if 'OpenRTE' in run(MPIEXEC, '--version').stdout else (0, 1)
+        self.assertIn(words.count('Stopped on request.'), told, words)
         self.expect_nothing(mesh)
 
 
