@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace freespace
@@ -60,6 +61,20 @@ inline std::function<Eigen::Vector3d(double, double)> RandomSquares(double side,
     return Eigen::Vector3d(
       30 + (hash >> 24) * 0.75, 30 + (hash >> 16 & 255) * 0.75, 30 + (hash >> 8 & 255) * 0.75);
   };
+}
+
+/// Two planes of coloured squares: one behind everything, and a slanted one before it where it exists.
+inline Layers TwoPlanes(double backDepth, std::function<bool(double, double)> frontExists)
+{
+  Layer back, front;
+  back.depth = backDepth;
+  back.exists = Everywhere();
+  back.color = RandomSquares(0.05, 5);
+  front.depth = 0.9;
+  front.slope = { 0.3, 0.1 };
+  front.exists = std::move(frontExists);
+  front.color = RandomSquares(0.04, 9);
+  return { back, front };
 }
 
 /// What a ray sees; black where there is nothing. Returns the distance through `t` when asked.

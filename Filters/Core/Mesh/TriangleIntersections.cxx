@@ -37,7 +37,6 @@ public:
   Pairs Run(const std::vector<std::size_t>& suspects, const MayMeet& mayMeet,
     const ParallelFor& parallelFor)
   {
-    this->FindBoxes(parallelFor);
     Pairs pairs = this->FindCandidates(suspects, mayMeet, parallelFor);
     std::vector<char> meet(pairs.size());
     parallelFor(pairs.size(),
@@ -96,6 +95,7 @@ private:
     {
       return {};
     }
+    this->FindBoxes(parallelFor);
     std::vector<char> isSuspect(this->Mesh.count, 0);
     Vector3d low = Vector3d::Constant(std::numeric_limits<double>::max());
     for (const std::size_t suspect : suspects)

@@ -237,7 +237,7 @@ private:
         if (IsConfirmed(track))
         {
           const MovingCamera& camera = this->Moving[observation.image];
-          const Eigen::Vector3d inCamera = camera.InCamera(track.point);
+          const Eigen::Vector3d inCamera = camera.Current().FromWorld(track.point);
           distances.push_back(inCamera.z() > 0
               ? std::abs(observation.normal.dot(camera.Pixel(inCamera) - observation.position))
               : 0.0);
@@ -249,23 +249,13 @@ private:
 
   void MoveCameras()
   {
-    for (std::size_t i = 0; i < this->Given.size(); ++i)
+    this->PrepareForEvaluation(false, true);
+    for (std::size_t i = 0; i < this->Moving.size(); ++i)
     {
-      const Camera& given = this->Given[i];
-      Camera& camera = this->Cameras[i];
-      const Eigen::Map<const Eigen::Vector3d> turn(this->Motions[i].data());
-      const Eigen::Map<const Eigen::Vector3d> step(this->Motions[i].data() + 3);
-      if (!this->IsObserved[i])
+      if (this->IsObserved[i])
       {
-        continue;
+        this->Cameras[i] = this->Moving[i].Current();
       }
-      const Eigen::Matrix3d R = turn.norm() > 0
-        ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
-        : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-      camera.R = R * given.R;
-      camera.t = R * given.t + this->Depths[i] * step;
-      camera.K.topLeftCorner<2, 2>() =
-        std::exp(this->LogFocals[this->LensOf[i]]) * given.K.topLeftCorner<2, 2>();
     }
   }
 

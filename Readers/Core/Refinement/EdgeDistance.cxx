@@ -40,6 +40,7 @@ Matrix3d LeftJacobian(const Vector3d& w)
 
 MovingCamera::MovingCamera(const Camera& given, double depth)
   : Given(given)
+  , Now(given)
   , Depth(depth)
 {
   this->Move(CameraMotion{}, 0);
@@ -51,26 +52,26 @@ void MovingCamera::Move(const CameraMotion& motion, double logFocal)
   const double angle = turn.norm();
   const Matrix3d R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
                                : Matrix3d(Matrix3d::Identity());
-  this->FromWorld = R * this->Given.R;
+  this->Now.R = R * this->Given.R;
   this->Step = this->Depth * Vector3d(motion[3], motion[4], motion[5]);
-  this->Translation = R * this->Given.t + this->Step;
+  this->Now.t = R * this->Given.t + this->Step;
   this->RotationJacobian = LeftJacobian(turn);
-  this->K = std::exp(logFocal) * this->Given.K.topLeftCorner<2, 2>();
-  this->PrincipalPoint = this->Given.K.topRightCorner<2, 1>();
+  this->Now.K.topLeftCorner<2, 2>() = std::exp(logFocal) * this->Given.K.topLeftCorner<2, 2>();
 }
 
 MovingCamera::Derivatives MovingCamera::PixelDerivatives(const Vector3d& inCamera) const
 {
+  const Eigen::Matrix2d K = this->Now.K.topLeftCorner<2, 2>();
   const Vector2d image = inCamera.head<2>() / inCamera.z();
   Eigen::Matrix<double, 2, 3> projection; // of the pixel by the point in the camera's frame
-  projection << this->K, -this->K * image;
+  projection << K, -K * image;
   projection /= inCamera.z();
   Derivatives result;
   result.motion.leftCols<3>() =
     -projection * CrossProductMatrix(inCamera - this->Step) * this->RotationJacobian;
   result.motion.rightCols<3>() = this->Depth * projection;
-  result.logFocal = this->K * image;
-  result.world = projection * this->FromWorld;
+  result.logFocal = K * image;
+  result.world = projection * this->Now.R;
   return result;
 }
 
@@ -87,7 +88,8 @@ EdgeDistance::EdgeDistance(
 bool EdgeDistance::Evaluate(
   double const* const* parameters, double* residuals, double** jacobians) const
 {
-  const Vector3d inCamera = this->Moving.InCamera(Eigen::Map<const Vector3d>(parameters[2]));
+  const Vector3d inCamera =
+    this->Moving.Current().FromWorld(Eigen::Map<const Vector3d>(parameters[2]));
   if (!(inCamera.z() > 0))
   {
     return false;

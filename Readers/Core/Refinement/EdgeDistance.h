@@ -26,16 +26,14 @@ public:
   /// The focal lengths become those given times exp(logFocal).
   void Move(const CameraMotion& motion, double logFocal);
 
-  /// The world point in the frame of the camera that has moved.
-  Eigen::Vector3d InCamera(const Eigen::Vector3d& world) const
-  {
-    return this->FromWorld * world + this->Translation;
-  }
+  /// The camera where it has moved.
+  const Camera& Current() const { return this->Now; }
 
-  /// The pixel of a point in that frame.
+  /// The pixel of a point in its frame.
   Eigen::Vector2d Pixel(const Eigen::Vector3d& inCamera) const
   {
-    return this->K * inCamera.head<2>() / inCamera.z() + this->PrincipalPoint;
+    return this->Now.K.topLeftCorner<2, 2>() * inCamera.head<2>() / inCamera.z() +
+      this->Now.K.topRightCorner<2, 1>();
   }
 
   /// The derivatives of that pixel.
@@ -48,14 +46,10 @@ public:
   Derivatives PixelDerivatives(const Eigen::Vector3d& inCamera) const;
 
 private:
-  Camera Given;
+  Camera Given, Now;
   double Depth;
-  Eigen::Matrix3d FromWorld;        // rotation
-  Eigen::Vector3d Translation;      // after it
-  Eigen::Vector3d Step;             // the part of it that the motion's translation makes
+  Eigen::Vector3d Step;             // the part of the translation that the motion's makes
   Eigen::Matrix3d RotationJacobian; // of the rotation vector: left Jacobian of SO(3)
-  Eigen::Matrix2d K;                // times the change of the focal lengths
-  Eigen::Vector2d PrincipalPoint;
 };
 
 /// The distance of a point's projection from its edge, in deviations. Along the edge it is constrained by the

@@ -23,14 +23,7 @@ public:
   PlanesScene()
     : Cameras(CrossOfCameras())
   {
-    Layer back, front;
-    back.depth = 1.1;
-    back.exists = Everywhere();
-    back.color = RandomSquares(0.05, 5);
-    front.depth = 0.9;
-    front.slope = { 0.3, 0.1 };
-    front.exists = [](double x, double) { return x > 0; };
-    front.color = RandomSquares(0.04, 9);
+    const Layers planes = TwoPlanes(1.1, [](double x, double) { return x > 0; });
     const char* names[5] = { "c.png", "l.png", "r.png", "u.png", "d.png" };
     std::filesystem::create_directories(this->Folder.Path("images"));
     SparseCamera lens;
@@ -43,7 +36,7 @@ public:
     for (std::uint32_t i = 0; i < 5; ++i)
     {
       cv::imwrite(this->Folder.Path("images/" + std::string(names[i])),
-        Render({ back, front }, this->Cameras[i], nullptr, 12));
+        Render(planes, this->Cameras[i], nullptr, 12));
       SparseImage image;
       image.id = i + 1;
       image.name = names[i];

@@ -25,20 +25,13 @@ public:
 
   RowScene()
   {
-    Layer back, front;
-    back.depth = 1.2;
-    back.exists = Everywhere();
-    back.color = RandomSquares(0.05, 5);
-    front.depth = 0.9;
-    front.slope = { 0.3, 0.1 };
-    front.exists = [](double x, double y) { return x * x + y * y < 0.02; };
-    front.color = RandomSquares(0.04, 9);
+    const Layers planes = TwoPlanes(1.2, [](double x, double y) { return x * x + y * y < 0.02; });
     std::filesystem::create_directories(this->Folder.Path("images"));
     for (int i = 0; i < Count; ++i)
     {
       const double x = 0.1 * (i - Count / 2);
       this->Cameras.push_back(LookAt({ x, 0.02 * (i % 2), 0.1 * x * x }, { 0, 0, 1 }));
-      cv::imwrite(this->File(i), Render({ back, front }, this->Cameras[i], nullptr, 12));
+      cv::imwrite(this->File(i), Render(planes, this->Cameras[i], nullptr, 12));
     }
     this->WriteModel();
     this->Path = this->Folder.Write("scene.json", R"({ "images": "images", "model": "sparse" })");
