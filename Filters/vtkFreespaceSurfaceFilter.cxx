@@ -188,11 +188,10 @@ int vtkFreespaceSurfaceFilter::RequestData(
     return freespace::AfterException(this);
   }
   this->FreespaceUnion->SetMaps(maps);
-  const freespace::FreespaceUnionOptions defaults;
   const int cells = this->Contour->GetCells();
-  this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0 ? this->HullMargin
-      : cells > 0                                           ? defaults.hullMarginCells / cells
-                  : freespace::FreespaceUnionOptions::AutomaticMargin);
+  this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0 || cells <= 0
+      ? this->HullMargin
+      : freespace::FreespaceUnionOptions().MarginFor(cells));
 
   const bool hasPieces =
     information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) != 0;

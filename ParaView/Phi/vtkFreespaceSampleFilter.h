@@ -42,7 +42,7 @@ public:
   ///@{
   /**
    * Offset of the hull, as a fraction of the diagonal of the box of the features; -1, the default, is
-   * slightly more than a lattice cell. See vtkFreespaceUnion::SetHullMargin.
+   * 0.016, or 1.25 lattice cells where that is more. See vtkFreespaceUnion::SetHullMargin.
    */
   void SetHullMargin(double margin);
   double GetHullMargin();

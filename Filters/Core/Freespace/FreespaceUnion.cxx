@@ -40,6 +40,13 @@ VoteRule RuleOf(const FreespaceUnionOptions& options, std::size_t views)
 
 }
 
+double FreespaceUnionOptions::MarginFor(int cells) const
+{
+  return this->hullMargin != AutomaticMargin
+    ? this->hullMargin
+    : std::max(this->hullMarginBeyond, this->hullMarginCells / cells);
+}
+
 void FreespaceUnionOptions::Check() const
 {
   if (this->minimumViews < 1 && this->minimumViews != AutomaticViews)
@@ -57,9 +64,9 @@ void FreespaceUnionOptions::Check() const
   {
     throw Error("The surroundings of the cameras must be 0 or greater and less than 1.");
   }
-  if (!(this->hullMarginCells >= 0))
+  if (!(this->hullMarginBeyond >= 0 && this->hullMarginCells >= 0))
   {
-    throw Error("The margin of the hull in cells must be 0 or greater.");
+    throw Error("The automatic margin of the hull must be 0 or greater.");
   }
   if (this->hullMargin != AutomaticMargin &&
     !(this->hullMargin >= 0 && this->hullMargin < MostMargin))
@@ -116,9 +123,8 @@ FreespaceUnion::FreespaceUnion(const SharedMaps& maps, const FreespaceUnionOptio
     features.push_back(map->features);
     this->Views.emplace_back(map, &map->freespace);
   }
-  const bool isAutomatic = options.hullMargin == FreespaceUnionOptions::AutomaticMargin;
   this->Region = MakeRegionHull(features, options.region, options.resolution,
-    isAutomatic ? -options.hullMarginCells : options.hullMargin, parallelFor, progress);
+    [&options](int cells) { return options.MarginFor(cells); }, parallelFor, progress);
   this->AddSilhouettes(features);
   this->AddSurroundings(features);
   this->FindMargins(features);

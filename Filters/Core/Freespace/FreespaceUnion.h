@@ -34,11 +34,15 @@ struct FreespaceUnionOptions
   double contradiction = 1.0;
 
   /// Offset of the hull's planes to the outside, as a fraction of the diagonal of the region's box;
-  /// >= 0, < 10; 0 in the paper. AutomaticMargin: hullMarginCells applies.
+  /// >= 0, < 10; 0 in the paper. AutomaticMargin: the greater one of the next two applies.
   double hullMargin = AutomaticMargin;
 
-  /// The same in cells of the suggested lattice; >= 0. Matter on the hull, such as a floor, must be
-  /// thick enough for the lattice.
+  /// The surface extends beyond its outermost features: an edge that no view matches, such as the far rim of a
+  /// vase, must not be cut off. As a fraction of the same diagonal; >= 0.
+  double hullMarginBeyond = 0.016;
+
+  /// In cells of the lattice, as a fraction of the diagonal for each cell along the longest side; >= 0. Matter
+  /// on the hull, such as a floor, must be thick enough for the lattice.
   double hullMarginCells = 1.25;
 
   RegionOptions region;         ///< the hull is that of the features in this region
@@ -47,6 +51,9 @@ struct FreespaceUnionOptions
   /// The ball around each camera inside the hull that is free, as a fraction of the distance to the
   /// nearest features; in [0, 1); 0: none.
   double surroundings = 0.5;
+
+  /// The margin of the hull for a lattice of this number of cells, as a fraction of the diagonal.
+  double MarginFor(int cells) const;
 
   /// Throws Error when a field is out of its range.
   void Check() const;

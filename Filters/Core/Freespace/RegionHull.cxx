@@ -72,7 +72,8 @@ ViewFeatures FeaturesOfMap(const DisparityMap& map, std::size_t index)
 }
 
 RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOptions& region,
-  const ResolutionOptions& resolution, double margin, const ParallelFor& parallelFor,
+  const ResolutionOptions& resolution, const std::function<double(int cells)>& margin,
+  const ParallelFor& parallelFor,
   const Progress& progress)
 {
   RegionHull result;
@@ -96,13 +97,12 @@ RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOp
     std::copy_if(view.points.begin(), view.points.end(), std::back_inserter(result.features),
       [&box](const Vector3d& point) { return box.contains(point); });
   }
-  const double share = margin < 0 ? -margin / result.cells : margin;
   const std::vector<Vector3d> features =
     OuterPointsIn(views, box, parallelFor, progress.Part(0.5, 0.8));
   RunWithProgress(progress.Part(0.8, 1.0),
     [&](const CancellationFlag& stop)
     {
-      const double length = features.empty() ? 0.0 : share * box.diagonal().norm();
+      const double length = features.empty() ? 0.0 : margin(result.cells) * box.diagonal().norm();
       result.hull = std::make_unique<FeatureHull>(features, length, stop);
     });
   return result;

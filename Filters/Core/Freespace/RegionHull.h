@@ -6,6 +6,7 @@
 #include "Freespace/FeatureHull.h"
 #include "Freespace/SurfaceResolution.h"
 
+#include <functional>
 #include <memory>
 
 namespace freespace
@@ -25,10 +26,11 @@ struct RegionHull
   std::vector<Eigen::Vector3d> features; ///< of all views, in the region
 };
 
-/// Finds the region. The hull is pushed out by a share of the region's diagonal; where that is negative, by so
-/// many cells' sides of the lattice.
+/// Finds the region. The hull is pushed out by a share of the region's diagonal, which can depend on the number of
+/// cells of the lattice.
 RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOptions& region,
-  const ResolutionOptions& resolution, double margin, const ParallelFor& parallelFor,
+  const ResolutionOptions& resolution, const std::function<double(int cells)>& margin,
+  const ParallelFor& parallelFor,
   const Progress& progress);
 
 }

@@ -288,3 +288,31 @@ TEST(FreespaceUnion, AStoppedIndexIsMadeAnew)
   EXPECT_EQ(last, 1.0);
   EXPECT_TRUE(phi.IsFree(Vector3d::Constant(50)));
 }
+
+// Without matched edges the far rim of a body is beyond the features: the automatic hull leaves room for it, at
+// least what a lattice needs.
+TEST(FreespaceUnion, TheAutomaticMarginIsTheGreaterOfTwo)
+{
+  FreespaceUnionOptions options;
+  EXPECT_EQ(options.MarginFor(1024), options.hullMarginBeyond);
+  EXPECT_EQ(options.MarginFor(50), options.hullMarginCells / 50);
+  const std::vector<DisparityMap> maps = RandomMaps(11, 3);
+  for (const int cells : { 40, 1000 })
+  {
+    options.resolution.fewestCells = options.resolution.mostCells = cells;
+    options.hullMargin = FreespaceUnionOptions::AutomaticMargin;
+    const FreespaceUnion automatic(maps, options);
+    options.hullMargin = 0;
+    const FreespaceUnion paper(maps, options);
+    const double length = options.hullMarginCells / 40 * paper.FeatureRegion().box.diagonal().norm();
+    const double share = cells == 40 ? 1 : options.hullMarginBeyond / (options.hullMarginCells / 40);
+    for (int i = 0; i < 100; ++i)
+    {
+      const Vector3d x = 0.5 * Vector3d::Random();
+      const int plane = paper.Hull().NearestPlane(x);
+      EXPECT_NEAR(automatic.Hull().Distance(plane, x), paper.Hull().Distance(plane, x) - share * length, 1e-9);
+    }
+  }
+  options.hullMarginBeyond = -1;
+  EXPECT_THROW(options.Check(), Error);
+}

@@ -13,7 +13,7 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
   command
     .add_option("--hull-margin", this->HullMargin,
       "Offset of the hull of the features to the outside, as a fraction of its diagonal; 0 in the "
-      "paper; default: slightly more than a lattice cell")
+      "paper; default: 0.016, or 1.25 lattice cells where that is more")
     ->check(Between(0.0, 10.0))
     ->group(group);
   command
@@ -35,12 +35,8 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
 
 double UnionOptions::MarginFor(int cells) const
 {
-  if (this->HullMargin >= 0)
-  {
-    return this->HullMargin;
-  }
-  return cells > 0 ? FreespaceUnionOptions().hullMarginCells / cells
-                   : FreespaceUnionOptions::AutomaticMargin;
+  return this->HullMargin >= 0 || cells <= 0 ? this->HullMargin
+                                              : FreespaceUnionOptions().MarginFor(cells);
 }
 
 int UnionOptions::Views() const
