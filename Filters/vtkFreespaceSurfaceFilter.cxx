@@ -189,9 +189,9 @@ int vtkFreespaceSurfaceFilter::RequestData(
   }
   this->FreespaceUnion->SetMaps(maps);
   const int cells = this->Contour->GetCells();
-  this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0 || cells <= 0
+  this->FreespaceUnion->SetHullMargin(this->HullMargin >= 0
       ? this->HullMargin
-      : freespace::FreespaceUnionOptions().MarginFor(cells));
+      : freespace::FreespaceUnionOptions::MarginOfLattice(cells));
 
   const bool hasPieces =
     information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) != 0;

@@ -126,8 +126,8 @@ public:
   /**
    * Offset of the hull's planes to the outside, as a fraction of the diagonal of the bounding box of the
    * features in the region; 0 in the paper. A value of 10 or more is an error. Automatic, or -1, is
-   * 0.016, or 1.25 cells of the lattice of GetSuggestedCells where that is more: the surface extends a little
-   * beyond its outermost features. Default automatic.
+   * slightly more than a cell of the lattice of GetSuggestedCells, or than the distance of the features where
+   * they are sparse, since the surface extends beyond the outermost ones; at most 0.02. Default automatic.
    */
   vtkSetMacro(HullMargin, double);
   vtkGetMacro(HullMargin, double);

@@ -42,7 +42,7 @@ public:
   ///@{
   /**
    * Offset of the hull, as a fraction of the diagonal of the box of the features; -1, the default, is
-   * 0.016, or 1.25 lattice cells where that is more. See vtkFreespaceUnion::SetHullMargin.
+   * slightly more than a lattice cell, or than the distance of the features where they are sparse. See vtkFreespaceUnion::SetHullMargin.
    */
   void SetHullMargin(double margin);
   double GetHullMargin();

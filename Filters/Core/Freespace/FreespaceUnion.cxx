@@ -40,11 +40,18 @@ VoteRule RuleOf(const FreespaceUnionOptions& options, std::size_t views)
 
 }
 
-double FreespaceUnionOptions::MarginFor(int cells) const
+double FreespaceUnionOptions::MarginFor(double cells, double distances) const
 {
-  return this->hullMargin != AutomaticMargin
-    ? this->hullMargin
-    : std::max(this->hullMarginBeyond, this->hullMarginCells / cells);
+  const double enough = std::max<double>(distances, this->hullMarginFewest);
+  return this->hullMargin != AutomaticMargin ? this->hullMargin
+                                             : this->hullMarginCells / std::min(cells, enough);
+}
+
+double FreespaceUnionOptions::MarginOfLattice(int cells)
+{
+  const FreespaceUnionOptions defaults;
+  const bool isCoarse = cells > 0 && cells < defaults.resolution.fewestCells;
+  return isCoarse ? defaults.MarginFor(cells, cells) : AutomaticMargin;
 }
 
 void FreespaceUnionOptions::Check() const
@@ -64,9 +71,9 @@ void FreespaceUnionOptions::Check() const
   {
     throw Error("The surroundings of the cameras must be 0 or greater and less than 1.");
   }
-  if (!(this->hullMarginBeyond >= 0 && this->hullMarginCells >= 0))
+  if (!(this->hullMarginCells >= 0 && this->hullMarginFewest >= 1))
   {
-    throw Error("The automatic margin of the hull must be 0 or greater.");
+    throw Error("The margin of the hull in cells must be 0 or greater, of one distance or more.");
   }
   if (this->hullMargin != AutomaticMargin &&
     !(this->hullMargin >= 0 && this->hullMargin < MostMargin))
@@ -123,8 +130,10 @@ FreespaceUnion::FreespaceUnion(const SharedMaps& maps, const FreespaceUnionOptio
     features.push_back(map->features);
     this->Views.emplace_back(map, &map->freespace);
   }
-  this->Region = MakeRegionHull(features, options.region, options.resolution,
-    [&options](int cells) { return options.MarginFor(cells); }, parallelFor, progress);
+  this->Region = MakeRegionHull(
+    features, options.region, options.resolution,
+    [&options](double cells, double distances) { return options.MarginFor(cells, distances); },
+    parallelFor, progress);
   this->AddSilhouettes(features);
   this->AddSurroundings(features);
   this->FindMargins(features);

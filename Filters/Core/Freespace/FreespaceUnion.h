@@ -34,16 +34,16 @@ struct FreespaceUnionOptions
   double contradiction = 1.0;
 
   /// Offset of the hull's planes to the outside, as a fraction of the diagonal of the region's box;
-  /// >= 0, < 10; 0 in the paper. AutomaticMargin: the greater one of the next two applies.
+  /// >= 0, < 10; 0 in the paper. AutomaticMargin: hullMarginCells applies.
   double hullMargin = AutomaticMargin;
 
-  /// The surface extends beyond its outermost features: an edge that no view matches, such as the far rim of a
-  /// vase, must not be cut off. As a fraction of the same diagonal; >= 0.
-  double hullMarginBeyond = 0.016;
-
-  /// In cells of the lattice, as a fraction of the diagonal for each cell along the longest side; >= 0. Matter
-  /// on the hull, such as a floor, must be thick enough for the lattice.
+  /// The same in cells of the suggested lattice, or in distances of the features on the surface where these are
+  /// greater; >= 0. Matter on the hull, such as a floor, must be thick enough for the lattice; and where features
+  /// are sparse, the surface extends beyond the outermost ones.
   double hullMarginCells = 1.25;
+
+  /// Number of distances of the features along the longest side that the margin takes them to have at least; >= 1.
+  int hullMarginFewest = 64;
 
   RegionOptions region;         ///< the hull is that of the features in this region
   ResolutionOptions resolution; ///< of the suggested lattice
@@ -52,8 +52,13 @@ struct FreespaceUnionOptions
   /// nearest features; in [0, 1); 0: none.
   double surroundings = 0.5;
 
-  /// The margin of the hull for a lattice of this number of cells, as a fraction of the diagonal.
-  double MarginFor(int cells) const;
+  /// The margin of the hull, as a fraction of the diagonal, for these numbers of lattice cells and of distances of the
+  /// features along the longest side.
+  double MarginFor(double cells, double distances) const;
+
+  /// The hullMargin to set for a lattice of a chosen number of cells; 0 or less: as many as suggested. A coarser one
+  /// than is ever suggested needs a greater margin than the automatic one.
+  static double MarginOfLattice(int cells);
 
   /// Throws Error when a field is out of its range.
   void Check() const;

@@ -72,8 +72,7 @@ ViewFeatures FeaturesOfMap(const DisparityMap& map, std::size_t index)
 }
 
 RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOptions& region,
-  const ResolutionOptions& resolution, const std::function<double(int cells)>& margin,
-  const ParallelFor& parallelFor,
+  const ResolutionOptions& resolution, const HullMargin& margin, const ParallelFor& parallelFor,
   const Progress& progress)
 {
   RegionHull result;
@@ -102,7 +101,11 @@ RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOp
   RunWithProgress(progress.Part(0.8, 1.0),
     [&](const CancellationFlag& stop)
     {
-      const double length = features.empty() ? 0.0 : margin(result.cells) * box.diagonal().norm();
+      const double distances = result.cellSide > 0
+        ? box.sizes().maxCoeff() / result.cellSide * resolution.cell
+        : result.cells;
+      const double length =
+        features.empty() ? 0.0 : margin(result.cells, distances) * box.diagonal().norm();
       result.hull = std::make_unique<FeatureHull>(features, length, stop);
     });
   return result;

@@ -26,11 +26,13 @@ struct RegionHull
   std::vector<Eigen::Vector3d> features; ///< of all views, in the region
 };
 
-/// Finds the region. The hull is pushed out by a share of the region's diagonal, which can depend on the number of
-/// cells of the lattice.
+/// A share of the region's diagonal, for the numbers of lattice cells and of distances of the features along its
+/// longest side.
+using HullMargin = std::function<double(double cells, double distances)>;
+
+/// Finds the region. The hull is pushed out by the margin.
 RegionHull MakeRegionHull(const std::vector<ViewFeatures>& views, const RegionOptions& region,
-  const ResolutionOptions& resolution, const std::function<double(int cells)>& margin,
-  const ParallelFor& parallelFor,
+  const ResolutionOptions& resolution, const HullMargin& margin, const ParallelFor& parallelFor,
   const Progress& progress);
 
 }

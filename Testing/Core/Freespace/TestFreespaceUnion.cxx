@@ -289,30 +289,44 @@ TEST(FreespaceUnion, AStoppedIndexIsMadeAnew)
   EXPECT_TRUE(phi.IsFree(Vector3d::Constant(50)));
 }
 
-// Without matched edges the far rim of a body is beyond the features: the automatic hull leaves room for it, at
-// least what a lattice needs.
-TEST(FreespaceUnion, TheAutomaticMarginIsTheGreaterOfTwo)
+// Without matched edges the far rim of a body is beyond the features: where these are sparse, the automatic hull leaves
+// room for it, and everywhere what a lattice needs.
+TEST(FreespaceUnion, TheAutomaticMarginFollowsTheCoarserOfLatticeAndFeatures)
 {
   FreespaceUnionOptions options;
-  EXPECT_EQ(options.MarginFor(1024), options.hullMarginBeyond);
-  EXPECT_EQ(options.MarginFor(50), options.hullMarginCells / 50);
+  EXPECT_EQ(options.MarginFor(256, 400), 1.25 / 256);
+  EXPECT_EQ(options.MarginFor(256, 100), 1.25 / 100);
+  EXPECT_EQ(options.MarginFor(256, 10), 1.25 / 64); // three features must not inflate the hull
+  EXPECT_EQ(options.MarginFor(20, 10), 1.25 / 20);
+  EXPECT_EQ(FreespaceUnionOptions::MarginOfLattice(0), FreespaceUnionOptions::AutomaticMargin);
+  EXPECT_EQ(FreespaceUnionOptions::MarginOfLattice(512), FreespaceUnionOptions::AutomaticMargin);
+  EXPECT_EQ(FreespaceUnionOptions::MarginOfLattice(50), 1.25 / 50);
+  options.hullMargin = 0.3;
+  EXPECT_EQ(options.MarginFor(256, 100), 0.3);
+  options.hullMarginFewest = 0;
+  EXPECT_THROW(options.Check(), Error);
+}
+
+TEST(FreespaceUnion, TheHullIsMovedByTheAutomaticMargin)
+{
   const std::vector<DisparityMap> maps = RandomMaps(11, 3);
-  for (const int cells : { 40, 1000 })
+  for (const int fewest : { 1, 64 })
   {
-    options.resolution.fewestCells = options.resolution.mostCells = cells;
-    options.hullMargin = FreespaceUnionOptions::AutomaticMargin;
+    FreespaceUnionOptions options;
+    options.hullMarginFewest = fewest;
     const FreespaceUnion automatic(maps, options);
     options.hullMargin = 0;
     const FreespaceUnion paper(maps, options);
-    const double length = options.hullMarginCells / 40 * paper.FeatureRegion().box.diagonal().norm();
-    const double share = cells == 40 ? 1 : options.hullMarginBeyond / (options.hullMarginCells / 40);
+    const Eigen::AlignedBox3d& box = paper.FeatureRegion().box;
+    const double asked = box.sizes().maxCoeff() / paper.CellSide() * options.resolution.cell;
+    ASSERT_LT(asked, 64);
+    const double length = 1.25 / std::max<double>(asked, fewest) * box.diagonal().norm();
     for (int i = 0; i < 100; ++i)
     {
       const Vector3d x = 0.5 * Vector3d::Random();
       const int plane = paper.Hull().NearestPlane(x);
-      EXPECT_NEAR(automatic.Hull().Distance(plane, x), paper.Hull().Distance(plane, x) - share * length, 1e-9);
+      EXPECT_NEAR(
+        automatic.Hull().Distance(plane, x), paper.Hull().Distance(plane, x) - length, 1e-9);
     }
   }
-  options.hullMarginBeyond = -1;
-  EXPECT_THROW(options.Check(), Error);
 }

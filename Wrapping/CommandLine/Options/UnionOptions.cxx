@@ -13,7 +13,8 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
   command
     .add_option("--hull-margin", this->HullMargin,
       "Offset of the hull of the features to the outside, as a fraction of its diagonal; 0 in the "
-      "paper; default: 0.016, or 1.25 lattice cells where that is more")
+      "paper; default: slightly more than a lattice cell, "
+      "or than the distance of the features where they are sparse")
     ->check(Between(0.0, 10.0))
     ->group(group);
   command
@@ -35,8 +36,7 @@ void UnionOptions::AddTo(CLI::App& command, const std::string& group)
 
 double UnionOptions::MarginFor(int cells) const
 {
-  return this->HullMargin >= 0 || cells <= 0 ? this->HullMargin
-                                              : FreespaceUnionOptions().MarginFor(cells);
+  return this->HullMargin >= 0 ? this->HullMargin : FreespaceUnionOptions::MarginOfLattice(cells);
 }
 
 int UnionOptions::Views() const
