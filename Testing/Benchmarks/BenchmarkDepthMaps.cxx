@@ -5,6 +5,7 @@
 //
 //   BenchmarkDepthMaps [WIDTH] [SCANS] [RESOLUTION]
 
+#include "Common/ParseNumber.h"
 #include "Depth/DepthFeatures.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Freespace/FreespaceUnion.h"
@@ -213,10 +214,16 @@ void RunOctoMap(
 
 int main(int argc, char** argv)
 {
-  const int width = argc > 1 ? std::atoi(argv[1]) : 320;
-  const int count = argc > 2 ? std::atoi(argv[2]) : 8;
-  const double finest = argc > 3 ? std::atof(argv[3]) : 0.02;
-  const std::vector<Scan> scans = MakeScans(count, width);
+  const auto width = ParseNumber<int>(argc > 1 ? argv[1] : "320");
+  const auto count = ParseNumber<int>(argc > 2 ? argv[2] : "8");
+  const auto resolution = ParseNumber<double>(argc > 3 ? argv[3] : "0.02");
+  if (!(width && count && resolution && *width > 1 && *count > 0 && *resolution > 0))
+  {
+    std::fprintf(stderr, "Usage: BenchmarkDepthMaps [WIDTH] [SCANS] [RESOLUTION]\n");
+    return 2;
+  }
+  const double finest = *resolution;
+  const std::vector<Scan> scans = MakeScans(*count, *width);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-1.9, 1.9);
   std::vector<Vector3d> points(200000);
@@ -224,8 +231,9 @@ int main(int argc, char** argv)
   {
     point = { coordinate(random), coordinate(random), coordinate(random) };
   }
-  std::printf("%d scans of %d x %d\n%-22s %8s %9s %10s %8s %10s %12s %8s\n", count, width,
-    width * 3 / 4, "", "s", "MB", "elements", "ns/query", "% in balls", "% not freed", "% unknown");
+  std::printf("%d scans of %d x %d\n%-22s %8s %9s %10s %8s %10s %12s %8s\n", *count, *width,
+    *width * 3 / 4, "", "s", "MB", "elements", "ns/query", "% in balls", "% not freed",
+    "% unknown");
   RunFreespace("freespace, blocks", scans, 16, points);
   RunFreespace("freespace, each pixel", scans, 1, points);
   RunOctoMap(scans, 2 * finest, points);

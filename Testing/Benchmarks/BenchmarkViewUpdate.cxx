@@ -6,6 +6,7 @@
 //
 //   BenchmarkViewUpdate [CELLS]
 
+#include "Common/ParseNumber.h"
 #include "Data/ViewBlocks.h"
 #include "Support/RandomMaps.h"
 #include "vtkBisectionContourFilter.h"
@@ -209,7 +210,13 @@ void Compare(
 
 int main(int argc, char** argv)
 {
-  const int cells = argc > 1 ? std::atoi(argv[1]) : 384;
+  const auto number = freespace::ParseNumber<int>(argc > 1 ? argv[1] : "384");
+  if (!(number && *number > 1))
+  {
+    std::fprintf(stderr, "Usage: BenchmarkViewUpdate [CELLS]\n");
+    return 2;
+  }
+  const int cells = *number;
   const double land[6] = { -3.5, 3.5, -3.5, 3.5, -0.5, 0.6 },
                ball[6] = { -1.2, 1.2, -1.2, 1.2, -1.2, 1.2 };
   Compare("landscape", Landscape, OverLandscape, land, cells);

@@ -7,6 +7,7 @@
 #include "vtkFreespaceUnion.h"
 #include "vtkSparseModelReader.h"
 
+#include "Common/ParseNumber.h"
 #include "SparseModel/ColmapModel.h"
 #include "Support/TemporaryFolder.h"
 
@@ -40,7 +41,7 @@ double TerrainHeight(double x, double y)
 int NumberOfViews()
 {
   const char* variable = std::getenv("FREESPACE_LARGE_VIEWS");
-  return variable ? std::atoi(variable) : 100;
+  return freespace::ParseNumber<int>(variable ? variable : "100").value();
 }
 
 // Views from above on a square lattice. About ten thousand points are seen by each, and each point by
