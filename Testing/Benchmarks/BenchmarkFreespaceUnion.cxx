@@ -8,6 +8,7 @@
 //   BenchmarkFreespaceUnion [--benchmark_filter=...]
 
 #include "Data/ViewBlocks.h"
+#include "Common/ParseNumber.h"
 #include "Disparity/DelaunayDisparity.h"
 #include "Freespace/FreespaceUnion.h"
 #include "Support/SharedData.h"
@@ -108,9 +109,8 @@ double PeakMegabytes(const std::function<void()>& work)
     {
       if (word == key + ":")
       {
-        double kilobytes;
-        file >> kilobytes;
-        return kilobytes / 1024;
+        file >> word;
+        return ParseNumber<double>(word).value() / 1024;
       }
     }
     return 0.0;

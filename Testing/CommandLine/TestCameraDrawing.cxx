@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report/Page/CameraDrawing.h"
 
+#include "Common/ParseNumber.h"
 #include "Support/Core/CountParts.h"
 
 #include <gtest/gtest.h>
@@ -25,6 +26,11 @@ Camera At(double x, double y, double z)
   return camera;
 }
 
+double NumberOf(const std::string& text)
+{
+  return ParseNumber<double>(text).value();
+}
+
 // Every coordinate of the drawing's paths.
 std::vector<Eigen::Vector2d> Coordinates(const std::string& svg)
 {
@@ -32,7 +38,7 @@ std::vector<Eigen::Vector2d> Coordinates(const std::string& svg)
   const std::regex pair("[ML](-?[0-9.]+) (-?[0-9.]+)");
   for (std::sregex_iterator at(svg.begin(), svg.end(), pair), end; at != end; ++at)
   {
-    points.emplace_back(std::stod((*at)[1]), std::stod((*at)[2]));
+    points.emplace_back(NumberOf((*at)[1]), NumberOf((*at)[2]));
   }
   return points;
 }
@@ -62,8 +68,8 @@ TEST(CameraDrawing, StaysInItsFrame)
   for (const Eigen::Vector2d& point : points)
   {
     EXPECT_GE(point.minCoeff(), 0);
-    EXPECT_LE(point.x(), std::stod(box[1]));
-    EXPECT_LE(point.y(), std::stod(box[2]));
+    EXPECT_LE(point.x(), NumberOf(box[1]));
+    EXPECT_LE(point.y(), NumberOf(box[2]));
   }
 }
 
@@ -75,7 +81,7 @@ TEST(CameraDrawing, HasLeftOnTheLeftAndFarAboveNear)
   std::map<std::string, Eigen::Vector2d> at;
   for (std::sregex_iterator i(svg.begin(), svg.end(), label), end; i != end; ++i)
   {
-    at[(*i)[3]] = Eigen::Vector2d(std::stod((*i)[1]), std::stod((*i)[2]));
+    at[(*i)[3]] = Eigen::Vector2d(NumberOf((*i)[1]), NumberOf((*i)[2]));
   }
   ASSERT_EQ(at.size(), 3u);
   EXPECT_LT(at["left"].x(), at["right"].x());

@@ -2,6 +2,7 @@
 #ifndef freespace_GroupedLists_h
 #define freespace_GroupedLists_h
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -9,9 +10,20 @@
 namespace freespace
 {
 
-/// A list of values for each key 0, 1, ..., all in one array (compressed sparse rows). Fewer than
-/// 2^31 values.
-template <typename Value = int>
+/// Where the list of each key 0, 1, ... begins in an array of the values of all keys, sorted by key, and the array's
+/// size. visitKeys(add) has to call add(key) once for each value, with keys below `keys`. O(n).
+template <typename Index, typename VisitKeys>
+std::vector<Index> BeginOfLists(std::size_t keys, const VisitKeys& visitKeys)
+{
+  std::vector<Index> begin(keys + 1, 0);
+  visitKeys([&begin](std::size_t key) { ++begin[key + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
+}
+
+/// A list of values for each key 0, 1, ..., all in one array (compressed sparse rows). Index is an integer that holds
+/// the number of values.
+template <typename Value = int, typename Index = int>
 class GroupedLists
 {
 public:
@@ -32,10 +44,10 @@ public:
   /// add(key, value) for the same pairs, with keys below `keys`. Each list keeps their order. O(n).
   template <typename VisitPairs>
   GroupedLists(std::size_t keys, const VisitPairs& visitPairs)
-    : Begin(keys + 2, 0)
+    : Begin(BeginOfLists<Index>(keys + 1, // the last list is empty: each begin is one place late
+        [&visitPairs](const auto& add)
+        { visitPairs([&add](std::size_t key, const Value&) { add(key + 1); }); }))
   {
-    visitPairs([this](std::size_t key, const Value&) { ++this->Begin[key + 2]; });
-    std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
     this->Values.resize(this->Begin.back());
     visitPairs([this](std::size_t key, const Value& value)
       { this->Values[this->Begin[key + 1]++] = value; });
@@ -55,15 +67,26 @@ public:
   /// The values of all lists, sorted by key, equal keys in the given order.
   const std::vector<Value>& AllValues() const { return this->Values; }
 
+  /// Sorts each list by isBefore(value, value).
+  template <typename IsBefore>
+  void SortLists(const IsBefore& isBefore)
+  {
+    for (std::size_t key = 0; key < this->NumberOfKeys(); ++key)
+    {
+      std::sort(this->Values.data() + this->Begin[key], this->Values.data() + this->Begin[key + 1],
+        isBefore);
+    }
+  }
+
   /// Removes the values for which keep(key, value) is false. Called in the order of the lists.
   template <typename Keep>
   void Filter(const Keep& keep)
   {
-    int kept = 0;
+    Index kept = 0;
     for (std::size_t key = 0; key < this->NumberOfKeys(); ++key)
     {
-      const int begin = kept;
-      for (int i = this->Begin[key]; i < this->Begin[key + 1]; ++i)
+      const Index begin = kept;
+      for (Index i = this->Begin[key]; i < this->Begin[key + 1]; ++i)
       {
         if (keep(key, this->Values[i]))
         {
@@ -77,7 +100,7 @@ public:
   }
 
 private:
-  std::vector<int> Begin = { 0 };
+  std::vector<Index> Begin = { 0 };
   std::vector<Value> Values;
 };
 

@@ -2,9 +2,11 @@
 #include "Freespace/SurfaceResolution.h"
 
 #include "Common/Error.h"
+#include "Common/Median.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace freespace
 {
@@ -39,13 +41,7 @@ double CellSide(const std::vector<ViewFeatures>& views, const Eigen::AlignedBox3
       }
     }
   }
-  if (sides.empty())
-  {
-    return 0;
-  }
-  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-  std::nth_element(sides.begin(), middle, sides.end());
-  return *middle;
+  return MedianOr(std::move(sides), 0.0);
 }
 
 int CellsAlong(const Eigen::AlignedBox3d& box, double cellSide, const ResolutionOptions& options)

@@ -2,10 +2,11 @@
 #ifndef freespace_BoxGrid_h
 #define freespace_BoxGrid_h
 
+#include "Common/GroupedLists.h"
+
 #include <Eigen/Geometry>
 
 #include <cstdint>
-#include <vector>
 
 namespace freespace
 {
@@ -36,15 +37,7 @@ public:
         this->ForEachCell(boxOf(i), [&](const Cell& cell) { body(this->PlaceOf(cell), item); });
       }
     };
-    this->Begin.assign((std::size_t(1) << this->Bits) + 2, 0);
-    visit([&](std::uint64_t place, std::int32_t) { ++this->Begin[place + 2]; });
-    for (std::size_t i = 2; i < this->Begin.size(); ++i)
-    {
-      this->Begin[i] += this->Begin[i - 1];
-    }
-    this->List.resize(this->Begin.back());
-    visit(
-      [&](std::uint64_t place, std::int32_t item) { this->List[this->Begin[place + 1]++] = item; });
+    this->Lists = GroupedLists<std::int32_t, std::uint32_t>(std::size_t(1) << this->Bits, visit);
   }
 
   Cell CellOf(const Eigen::Vector3d& point) const
@@ -59,10 +52,9 @@ public:
     this->ForEachCell(box,
       [&](const Cell& cell)
       {
-        const std::uint64_t place = this->PlaceOf(cell);
-        for (std::uint32_t i = this->Begin[place]; i < this->Begin[place + 1]; ++i)
+        for (const std::int32_t item : this->Lists[this->PlaceOf(cell)])
         {
-          visit(this->List[i], cell);
+          visit(item, cell);
         }
       });
   }
@@ -94,9 +86,8 @@ private:
 
   Eigen::Vector3d Low;
   double Side;
-  int Bits = 0;                     // of the table's size
-  std::vector<std::uint32_t> Begin; // per place, of its items
-  std::vector<std::int32_t> List;
+  int Bits = 0;                                    // of the table's size
+  GroupedLists<std::int32_t, std::uint32_t> Lists; // per place, its items
 };
 
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Epipolar/EpipolarIndex.h"
 
+#include "Common/GroupedLists.h"
 #include "Epipolar/EpipolarRays.h"
 
 #include <algorithm>
@@ -72,13 +73,12 @@ EpipolarIndex::EpipolarIndex(const EpipolarPair& pair, const EdgeChains& edges, 
     return;
   }
   const std::size_t cells = static_cast<std::size_t>(this->Rows) * this->Columns;
-  this->Begin.assign(cells + 1, 0);
-  this->VisitCells(
-    [this](int row, int column, const Piece&) { ++this->Begin[row * this->Columns + column + 1]; });
-  for (std::size_t cell = 0; cell < cells; ++cell)
-  {
-    this->Begin[cell + 1] += this->Begin[cell];
-  }
+  this->Begin = BeginOfLists<int>(cells,
+    [this](const auto& add)
+    {
+      this->VisitCells([&](int row, int column, const Piece&)
+        { add(static_cast<std::size_t>(row) * this->Columns + column); });
+    });
   this->Groups.resize((this->Begin.back() + PieceGroup::Size - 1) / PieceGroup::Size);
   std::vector<int> next(this->Begin.begin(), this->Begin.end() - 1);
   this->VisitCells(

@@ -91,6 +91,34 @@ TEST(GroupedLists, FilterKeepsTheOrderOfWhatItKeeps)
   ExpectLists(lists, std::vector<std::vector<int>>(20));
 }
 
+TEST(GroupedLists, SortsEachListAlone)
+{
+  std::mt19937 random(3);
+  const Pairs pairs = RandomPairs(random, 20, 300);
+  std::vector<std::vector<int>> truth(20);
+  for (const auto& [key, value] : pairs)
+  {
+    truth[key].insert(truth[key].begin(), value);
+  }
+  GroupedLists<int> lists = Group(20, pairs);
+  lists.SortLists([](int a, int b) { return a > b; });
+  ExpectLists(lists, truth);
+}
+
+TEST(GroupedLists, BeginsAreSumsOfCounts)
+{
+  const std::vector<std::size_t> keys = { 3, 1, 3, 0, 3 };
+  const auto visit = [&keys](const auto& add)
+  {
+    for (const std::size_t key : keys)
+    {
+      add(key);
+    }
+  };
+  EXPECT_EQ(BeginOfLists<int>(5, visit), (std::vector<int>{ 0, 1, 2, 2, 5, 5 }));
+  EXPECT_EQ(BeginOfLists<int>(0, [](const auto&) {}), std::vector<int>{ 0 });
+}
+
 TEST(GroupedLists, WithoutKeysOrValues)
 {
   EXPECT_EQ(GroupedLists<int>().NumberOfKeys(), 0u);

@@ -59,7 +59,7 @@ private:
   }
 
   template <typename Visit>
-  static void ForEach(const LatticeIndex& low, const LatticeIndex& high, Visit&& visit)
+  static void ForEachIndex(const LatticeIndex& low, const LatticeIndex& high, Visit&& visit)
   {
     for (int k = low[2]; k < high[2]; ++k)
     {
@@ -109,7 +109,7 @@ void BlockSampler::Ask(const CellRange& range, const FieldScope& parent, bool is
     if (content != BoxContent::Mixed)
     {
       const PointState state = content == BoxContent::Free ? IsFree : IsMatter;
-      ForEach(range.low, end, [&](int i, int j, int k) { this->StateAt(i, j, k) = state; });
+      ForEachIndex(range.low, end, [&](int i, int j, int k) { this->StateAt(i, j, k) = state; });
       return;
     }
   }
@@ -122,7 +122,7 @@ void BlockSampler::Ask(const CellRange& range, const FieldScope& parent, bool is
     }
     return;
   }
-  ForEach(range.low, end,
+  ForEachIndex(range.low, end,
     [&](int i, int j, int k)
     {
       PointState& state = this->StateAt(i, j, k);
@@ -135,7 +135,7 @@ void BlockSampler::Ask(const CellRange& range, const FieldScope& parent, bool is
 
 void BlockSampler::FindVertices(const FieldScope& scope)
 {
-  ForEach({ 0, 0, 0 }, this->Cells,
+  ForEachIndex({ 0, 0, 0 }, this->Cells,
     [&](int i, int j, int k)
     {
       const PointState state = this->StateAt(i, j, k);
@@ -191,7 +191,7 @@ double BlockSampler::Bisect(
 
 void BlockSampler::FindCells()
 {
-  ForEach({ 0, 0, 0 }, this->Cells,
+  ForEachIndex({ 0, 0, 0 }, this->Cells,
     [&](int i, int j, int k)
     {
       int matter = 0;

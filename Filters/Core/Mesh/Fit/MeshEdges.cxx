@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Fit/MeshEdges.h"
 
+#include "Common/GroupedLists.h"
+
 #include <algorithm>
 
 namespace freespace
@@ -17,33 +19,28 @@ MeshEdges::MeshEdges(const std::vector<std::array<std::int32_t, 3>>& triangles, 
   };
   // The sides of triangles, by their lesser vertex.
   const std::size_t sides = 3 * triangles.size();
-  std::vector<std::size_t> begin(count + 2, 0), sorted(sides);
-  for (std::size_t side = 0; side < sides; ++side)
-  {
-    ++begin[endsOf(side).first + 2];
-  }
-  for (std::size_t i = 2; i < begin.size(); ++i)
-  {
-    begin[i] += begin[i - 1];
-  }
-  for (std::size_t side = 0; side < sides; ++side)
-  {
-    sorted[begin[endsOf(side).first + 1]++] = side;
-  }
+  GroupedLists<std::size_t, std::size_t> sorted(count,
+    [&](const auto& add)
+    {
+      for (std::size_t side = 0; side < sides; ++side)
+      {
+        add(endsOf(side).first, side);
+      }
+    });
+  sorted.SortLists(
+    [&](std::size_t a, std::size_t b)
+    {
+      const int x = endsOf(a).second, y = endsOf(b).second;
+      return x != y ? x < y : a < b;
+    });
   this->ends.reserve(sides / 2);
   for (std::size_t v = 0; v < count; ++v)
   {
-    const auto first = sorted.begin() + begin[v], last = sorted.begin() + begin[v + 1];
-    std::sort(first, last,
-      [&](std::size_t a, std::size_t b)
-      {
-        const int x = endsOf(a).second, y = endsOf(b).second;
-        return x != y ? x < y : a < b;
-      });
-    for (auto from = first; from != last;)
+    const auto list = sorted[v];
+    for (const std::size_t* from = list.begin(); from != list.end();)
     {
-      auto to = from;
-      while (to != last && endsOf(*to).second == endsOf(*from).second)
+      const std::size_t* to = from;
+      while (to != list.end() && endsOf(*to).second == endsOf(*from).second)
       {
         this->ofTriangle[*to / 3][*to % 3] = static_cast<std::int32_t>(this->ends.size());
         ++to;

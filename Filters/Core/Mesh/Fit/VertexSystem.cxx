@@ -85,34 +85,25 @@ void VertexSystem::AddPlace(const std::array<std::int32_t, 3>& corners,
   }
 }
 
-// The neighbours of each vertex, and the beginning of each list.
-std::vector<std::size_t> VertexSystem::LinkVertices(std::vector<Link>& links) const
+// The neighbours of each vertex.
+VertexSystem::Links VertexSystem::LinkVertices() const
 {
-  std::vector<std::size_t> begin(this->Bases.size() + 2, 0);
-  for (const auto& ends : this->Edges.ends)
-  {
-    ++begin[ends[0] + 2];
-    ++begin[ends[1] + 2];
-  }
-  for (std::size_t i = 2; i < begin.size(); ++i)
-  {
-    begin[i] += begin[i - 1];
-  }
-  links.resize(begin.back());
-  for (std::size_t e = 0; e < this->Edges.ends.size(); ++e)
-  {
-    const auto& [a, b] = this->Edges.ends[e];
-    const auto edge = static_cast<std::int32_t>(e);
-    links[begin[a + 1]++] = { b, edge, true };
-    links[begin[b + 1]++] = { a, edge, false };
-  }
-  return begin;
+  return Links(this->Bases.size(),
+    [this](const auto& add)
+    {
+      for (std::size_t e = 0; e < this->Edges.ends.size(); ++e)
+      {
+        const auto& [a, b] = this->Edges.ends[e];
+        const auto edge = static_cast<std::int32_t>(e);
+        add(a, { b, edge, true });
+        add(b, { a, edge, false });
+      }
+    });
 }
 
 VertexSystem::Rows VertexSystem::MakeRows() const
 {
-  std::vector<Link> links;
-  const std::vector<std::size_t> begin = this->LinkVertices(links);
+  const Links links = this->LinkVertices();
   const int size = this->Offset.back();
   Rows rows(size, size);
   std::size_t entries = 2 * this->Blocks.size();
@@ -132,9 +123,8 @@ VertexSystem::Rows VertexSystem::MakeRows() const
       {
         rows.insertBackByOuterInnerUnordered(row, this->Offset[v] + j) = this->Diagonal[v](i, j);
       }
-      for (std::size_t l = begin[v]; l < begin[v + 1]; ++l)
+      for (const Link& link : links[v])
       {
-        const Link& link = links[l];
         const int width = this->Bases[link.vertex].freedom;
         const double* block = this->Blocks.data() + this->BlockOffset[link.edge];
         for (int j = 0; j < width; ++j)

@@ -3,6 +3,7 @@
 #define freespace_VertexSystem_h
 
 #include "Common/CancellationFlag.h"
+#include "Common/GroupedLists.h"
 #include "Common/ParallelFor.h"
 #include "Mesh/Fit/MeshEdges.h"
 
@@ -52,7 +53,8 @@ private:
     bool isFirst; // of the edge's ends
   };
   using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  std::vector<std::size_t> LinkVertices(std::vector<Link>& links) const;
+  using Links = GroupedLists<Link, std::size_t>;
+  Links LinkVertices() const;
   Rows MakeRows() const;
   void InvertDiagonal(const ParallelFor& parallelFor);
   void Precondition(const Eigen::VectorXd& x, Eigen::VectorXd& result) const;
